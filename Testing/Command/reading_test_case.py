@@ -64,7 +64,7 @@ class ReadingTestCase(FolderTestCase):
             with self.subTest(name, old=old, new=new[:30]):
                 self.refused(name, reason, content[:place] + new + content[place + length:])
 
-    def cut(self, name, content, reason="cut off|damaged", rests=(0.1, 0.5, 0.9, -10, -1)):
+    def cut(self, name, content, reason="truncated|damaged", rests=(0.1, 0.5, 0.9, -10, -1)):
         """The whole file is read, but not this share of it, or all but so many bytes."""
         self.read(name, content)
         for rest in rests:
@@ -79,4 +79,4 @@ class ReadingTestCase(FolderTestCase):
             damaged = bytearray(content)
             damaged[place] ^= 1 << int(generator.integers(8))
             with self.subTest(name, place=place):
-                self.refused(name, "damaged|cut off|more than|too long|no main", damaged)
+                self.refused(name, "damaged|truncated|exceed|too long|missing", damaged)

@@ -79,7 +79,7 @@ class MeshesTest(ReadingTestCase):
             for rest in rests:
                 with self.subTest(suffix, rest=rest):
                     self.refused_mesh(name, content[:int(len(content) * rest) if 0 < rest else rest],
-                                      "cut off|damaged|cannot read")
+                                      "truncated|damaged|cannot read")
 
     def test_polygons(self):
         self.write_bytes("a.ply", self.PLY)
@@ -91,10 +91,10 @@ class MeshesTest(ReadingTestCase):
                 self.refused_mesh("b.ply", self.PLY.replace(old, new))
         for word in (b"solid", b"binary"):
             self.refused_mesh("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31) + bytes(500),
-                              "cut off: it has 584 bytes")
+                              "truncated: it has 584 bytes")
         for line in (b"f 1 2 4", b"f 1 2 x", b"f 1 2 0"):
             self.refused_mesh("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + b"\n")
-        self.refused_mesh("a.xyz2", b"", "are read")
+        self.refused_mesh("a.xyz2", b"", "unknown mesh format")
         self.refused_mesh("a.vtp", b"<VTKFile/>")
 
     def test_texts(self):
@@ -104,11 +104,11 @@ class MeshesTest(ReadingTestCase):
             self.write_bytes("a.csv", heading + b"1.5,2,-3\n")
             self.assertEqual(points.read_seeds(self.path("a.csv")).GetPoint(0), (1.5, 2, -3))
         for text, reason in (
-                (b"x,y,z\n1,2,3\n1,2\n", "line 3: not three"), (b"# none\n", "no points"),
+                (b"x,y,z\n1,2,3\n1,2\n", "line 3: expected three"), (b"# none\n", "no points"),
                 (b"1 2 nan\n", "line 1: 'nan' is not a number"), (b"inf 1 2\n", "line 1: 'inf'"),
                 (b"1 2 x\n1 2 3\n", "line 1: 'x' is not a number"), (b"x,y,z\n", "no points"),
                 (b"1;2;3\n1 2 3\n", "line 1: '1;2;3' is not"), (b"1.5.2 2 3\n", "line 1: '1.5.2' is"),
-                (b"1,5 2,0 3,5\n1 2 3\n", "line 1: not three"),
+                (b"1,5 2,0 3,5\n1 2 3\n", "line 1: expected three"),
                 (b"x,y,z\nx,y,z\n1 2 3\n", "line 2: 'x' is not"),
                 (b"x,y,z\n1,2,three\n", "line 2: 'three'")):
             with self.subTest(text):
@@ -167,7 +167,7 @@ class CommandTest(CommandTestCase):
         content = medical_files.nifti(ball(), SPACING)
         self.write_bytes("c.nii", content[:268] + struct.pack("<f", float("nan")) + content[272:])
         self.write_bytes("d.mnc", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 9)
-        for name, reason in (("a.mha", "cut off"), ("b.nrrd", "damaged"), ("c.nii", "the origin nan"),
+        for name, reason in (("a.mha", "truncated"), ("b.nrrd", "damaged"), ("c.nii", "the origin nan"),
                              ("d.mnc", "cannot be read|crashed"), ("e.vti", "no such file")):
             self.refused_volume(name, reason)
 
@@ -201,7 +201,7 @@ class CommandTest(CommandTestCase):
         process = self.run_command(file, self.path("a.stl"), "--iso", "500.5", status=1,
                                    preexec_fn=lambda: resource.setrlimit(
                                        resource.RLIMIT_AS, (1500 << 20, 1500 << 20)))
-        self.assertRegex(process.stderr, "large.mha: not enough memory to read it.*crop")
+        self.assertRegex(process.stderr, "large.mha: not enough memory to read the volume; crop")
 
 
 if __name__ == "__main__":

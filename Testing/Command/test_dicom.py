@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """DICOM as scanners, networks and programs write it: irregular slices are resampled, one of several
-volumes is chosen, what is left out is reported, and a slice that is cut off is named."""
+volumes is chosen, ignored slices are reported, and truncated slices are named."""
 
 import os
 import struct
@@ -85,9 +85,9 @@ class SlicesTest(DicomTest):
         expected = ball().astype(float)
         expected[9] = (expected[8] + expected[10]) / 2
         np.testing.assert_allclose(volume.array, expected, atol=0.5)
-        self.assertRegex(volume.warnings[0], "1 to 2 mm apart: some are missing.*resampled from "
+        self.assertRegex(volume.warnings[0], "vary from 1 to 2 mm: missing slices.*resampled from "
                          "26 x 22 x 17 to 26 x 22 x 18")
-        self.refused("some are missing.*without --no-resampling", resampling=False)
+        self.refused("missing slices.*without --no-resampling", resampling=False)
         report = self.report(self.path("a"), "--iso", ISO)
         self.assertIn("resampled from", report["input"]["resampling"])
 
@@ -98,7 +98,7 @@ class SlicesTest(DicomTest):
         volume = self.read()
         self.assertEqual(volume.array.shape[0], 26)
         self.assertAlmostEqual(volume.spacing[2], 17.3 / 25)
-        self.assertRegex(volume.warnings[0], "slices are 0.7 to 1.3 mm apart")
+        self.assertRegex(volume.warnings[0], "slice distances vary from 0.7 to 1.3 mm")
         middle = np.array([np.interp(17.3 / 25 * np.arange(26), heights, ball()[:, 12, x])
                            for x in range(SIZE[0])]).T
         np.testing.assert_allclose(volume.array[:, 12], middle, atol=0.51)
@@ -112,8 +112,8 @@ class SlicesTest(DicomTest):
         volume = self.read()
         np.testing.assert_array_equal(volume.array[:, 5:17], ball()[:, 5:17])
         self.assertEqual(volume.array.shape, (18, 22 + 5, 26))
-        self.assertRegex(volume.warnings[0], "gantry was tilted: .* up to 0.75 mm")
-        self.refused("gantry was tilted", resampling=False)
+        self.assertRegex(volume.warnings[0], "gantry tilt: .* up to 0.75 mm")
+        self.refused("gantry tilt", resampling=False)
 
     def test_labels_of_tilted_slices_are_not_mixed(self):
         for k in range(SIZE[2]):
@@ -125,10 +125,10 @@ class SlicesTest(DicomTest):
         self.series()
         across = np.array([[0, 0, 1], [1, 0, 0], [0, 1, 0]])
         self.write_bytes("a/scout", dicom_slice(3, direction=across))
-        self.check(told="scout: its place, .*1 of 19 slices are left out")
+        self.check(told="the position, .*of scout differs.*1 of 19 slices are ignored")
         for k in range(8):
             self.write_bytes(f"a/scout{k}", dicom_slice(k, direction=across))
-        self.refused("scout: its place.* differs from that of IM00; move")
+        self.refused("position, .*of scout differs from that of IM00; move")
 
     def test_folders_within_folders(self):
         for k in range(SIZE[2]):
@@ -145,7 +145,7 @@ class SlicesTest(DicomTest):
     def test_several_times(self):
         self.series(more=((0x20, 0x13, "IS", "1"),))
         self.series(name="T{:02}", voxels=1000 - ball(), more=((0x20, 0x13, "IS", "2"),))
-        self.refused("2 volumes, .*choose one with --time N, 0 to 1")
+        self.refused("2 volumes .*choose one with --time N, 0 to 1")
         self.check(time=0)
         self.check(time=1, voxels=1000 - ball())
         self.refused("there is no time 2", time=2)
@@ -155,9 +155,9 @@ class SlicesTest(DicomTest):
     def test_two_series_of_one_study(self):
         self.series(range(0, 18, 2))
         self.series(range(1, 18, 2), series="1.2.4")
-        self.refused(r"2 series, one is needed; choose it with --series N: "
+        self.refused(r"2 series; choose one with --series N: "
                      "1: head, 9 slices of 26 x 22, from IM00; 2: head, 9 slices of .*IM01")
-        self.refused("no series 3; there are 1: head", series=3)
+        self.refused("no series 3; choose one of 1: head", series=3)
         for name, series in (("a", "2"), ("a", "1.2.4"), ("a/IM01", None)):
             np.testing.assert_array_equal(self.read(name, series=series).array, ball()[1::2])
         listed = self.run_command(self.path("a"), "--list-series").stdout.splitlines()
@@ -177,7 +177,7 @@ class SlicesTest(DicomTest):
             content = dicom_slice(k, more=((8, 0x18, "UI", f"1.2.3.{k}"),))
             self.write_bytes(f"a/IM{k:02}", content)
             self.write_bytes(f"a/copies/IM{k:02}", content)
-        self.check(told="18 of its files are copies of others")
+        self.check(told="18 files are copies of others")
 
     def test_without_preamble(self):
         self.series()
@@ -192,7 +192,7 @@ class SlicesTest(DicomTest):
                 k, lacks=("position",), more=((0x20, 0x13, "IS", str(k)), (0x18, 0x50, "DS", "1"))))
         volume = self.read()
         np.testing.assert_array_equal(volume.array, ball())
-        self.assertRegex(volume.warnings[0], "18 slices have no positions; .* 1 mm apart")
+        self.assertRegex(volume.warnings[0], "18 slices have no positions; .* distance of 1 mm")
 
     def test_without_pixel_spacing(self):
         for k in range(SIZE[2]):
@@ -204,10 +204,10 @@ class SlicesTest(DicomTest):
             imager = struct.pack("<HH", 0x18, 0x1164) + value[4:]
             self.write_bytes(f"a/IM{k:02}", content[:before] + imager + content[before:])
             self.write_bytes(f"b/IM{k:02}", content)
-        self.check(told="Imager Pixel Spacing, 0.75 x 0.5, .* is taken")
+        self.check(told="Imager Pixel Spacing of the detector, 0.75 x 0.5, is used")
         volume = self.read("b")
         self.assertEqual(volume.spacing, (1, 1, 1))
-        self.assertRegex(volume.warnings[0], "no Pixel Spacing; 1 x 1 is taken")
+        self.assertRegex(volume.warnings[0], "no Pixel Spacing; 1 x 1 is used")
 
 
 class FramesTest(DicomTest):
@@ -281,7 +281,7 @@ class DamageTest(DicomTest):
             content = dicom_slice(7, syntax=syntax)
             for rest in (-1, -500, -1144, -1150, 300, 200, 140):
                 with self.subTest(syntax, rest=rest):
-                    self.refused_slice(7, content[:rest], "cut off")
+                    self.refused_slice(7, content[:rest], "truncated")
         self.run_command(self.path("a"), self.path("o.stl"), "--iso", ISO)
 
     def test_slices_that_were_cut_to_nothing(self):
@@ -292,7 +292,7 @@ class DamageTest(DicomTest):
             for damaged in (content[:0], content[:131], content[:130] + b"?" + content[131:]):
                 with self.subTest(file, bytes=len(damaged)):
                     self.write_bytes("a/" + file, damaged)
-                    self.refused(f"{file}: no DICOM file")
+                    self.refused(f"{file}: not a DICOM file")
             for file in os.listdir(self.path("a")):
                 os.remove(self.path("a/" + file))
 
@@ -315,24 +315,24 @@ class DamageTest(DicomTest):
         self.check()
         for place, count in ((pixels, 2), (pixels + 500, 8), (len(content), 3)):
             self.refused_slice(17, content[:place] + b"\x07" * count + content[place:],
-                               "does not end behind its pixels")
+                               "does not end after its pixels")
         self.refused_slice(17, content[:pixels - 4] + struct.pack("<I", 572) + content[pixels:],
-                           "does not end behind its pixels")
+                           "does not end after its pixels")
 
     def test_headers_that_make_no_sense(self):
         self.series()
         content = dicom_slice(3)
         rows = struct.pack("<HH2sH", 0x28, 0x10, b"US", 2)
         self.write_bytes("b/IM00", content.replace(rows + b"\x16", rows + b"\x28"))
-        self.refused("IM00: the file is cut off: it has 1144 bytes of voxels, .* 2080", "b")
+        self.refused("IM00: the file is truncated: it has 1144 bytes of voxels, .* 2080", "b")
         at = content.index(struct.pack("<HH", 0x0008, 0x1140)) + 12
         deep = content[:at] + struct.pack("<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF) * 3000
-        self.refused_slice(3, deep, "cut off|damaged")
-        for changes, reason in (({"bits": 32}, "the file is cut off"), ({"bits": 0}, "of 0 bits"),
+        self.refused_slice(3, deep, "truncated|damaged")
+        for changes, reason in (({"bits": 32}, "the file is truncated"), ({"bits": 0}, "of 0 bits"),
                                 ({"bits": 12}, "of 12 bits"), ({"samples": 3}, "3 components"),
-                                ({"frames": "1A"}, "header is damaged: .*1A"),
-                                ({"slope": "1A"}, "header is damaged: .*1A"),
-                                ({"intercept": "1A"}, "header is damaged: .*1A"),
+                                ({"frames": "1A"}, "invalid header: .*1A"),
+                                ({"slope": "1A"}, "invalid header: .*1A"),
+                                ({"intercept": "1A"}, "invalid header: .*1A"),
                                 ({"frames": "9999999"}, "9999999 frames")):
             with self.subTest(**changes):
                 self.refused_slice(3, dicom_slice(3, **changes), reason)

@@ -52,7 +52,7 @@ class ListTest(LabelsTest):
                                 (["--background", "1"], [-3, 0, 2, 7])):
             rows = self.listed(volume, "--label-names", names, *options)
             self.assertEqual([row["label"] for row in rows], labels)
-        self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
+        self.refused("map.vti: no label matches 'kidney'", volume, "--list-labels", "--labels",
                      "kidney")
 
     def test_floating_point_and_spacing(self):

@@ -132,7 +132,7 @@ class FilesTest(NamesTest):
 
     def test_what_is_no_list_of_names(self):
         for text, reason in (
-                ("", "names no label"), ("# nothing\n", "names no label"),
+                ("", "no label names found"), ("# nothing\n", "names no label"),
                 ("1 2 3\n4 5 6\n", "line 1 lacks .* a name"), ("1 liver\n3\n", "line 2 lacks"),
                 ("liver\nspleen\n", "line 2 lacks .* column names such as 'label'"),
                 ("label,name\n1,liver\n3\n", "line 3 lacks"), ("1,2\n3,4\n", "line 1 lacks"),
@@ -141,16 +141,16 @@ class FilesTest(NamesTest):
                 ("1 liver 255 300 0\n", "colors are from 0 to 300; write them from 0 to 1 or"),
                 (b"1\0l\0i\0v\0", "not text in UTF-8"), (bytes(17 << 20), "too large"),
                 ("1," + "x" * 200000, "field larger than"),
-                ('{"1": "liver",\n "3": "lu', "line 2"), ('{"liver": 1e999}', "names no label"),
-                ("[" * 1000000, "recursion depth"), ('["liver", "lung"]', "names no label"),
-                ('{"labels": {"liver": 1.5}}', "names no label"),
-                ('{"labels": ' * 60 + "{}" + "}" * 60, "names no label")):
+                ('{"1": "liver",\n "3": "lu', "line 2"), ('{"liver": 1e999}', "no label names found"),
+                ("[" * 1000000, "recursion depth"), ('["liver", "lung"]', "no label names found"),
+                ('{"labels": {"liver": 1.5}}', "no label names found"),
+                ('{"labels": ' * 60 + "{}" + "}" * 60, "no label names found")):
             with self.subTest(text[:40]):
                 with self.assertRaisesRegex(Failure, f"^{self.path('names.txt')}: names of labels "
                                                      f"cannot be read: .*{reason}"):
                     self.labels_in(text)
         for name in ("none.txt", ""):
-            self.refused("names of labels cannot be read: (No such file|Is a dir)", self.map_file(),
+            self.refused("label names cannot be read: (No such file|Is a dir)", self.map_file(),
                          self.path("o/"), "--labels", "1", "--label-names", self.path(name))
 
 
@@ -173,9 +173,9 @@ class BesideTest(NamesTest):
         self.write_bytes("map.json", b'{"EchoTime": 0.03, "Manufacturer": "x"}')
         self.write_bytes("map.csv", b"label,name\n3,liver\n")
         process = self.run_command(self.map_file(), self.path("o/"), "--labels", "liver")
-        self.assertRegex(process.stderr, "warning: .*map.json: names of labels cannot be read: "
-                         "the file names no label; .*; this file is skipped")
-        self.assertIn("names of labels are those of " + self.path("map.csv"), process.stderr)
+        self.assertRegex(process.stderr, "warning: .*map.json: label names cannot be read: "
+                         "no label names found; .*; the file is ignored")
+        self.assertIn("label names are read from " + self.path("map.csv"), process.stderr)
         self.assertEqual(os.listdir(self.path("o")), ["liver.vtp"])
         mine = self.write_bytes("mine.txt", b"3 mine\n")
         process = self.run_command(self.map_file(), self.path("o/"), "--labels", "mine",
@@ -273,12 +273,12 @@ class HeadersTest(NamesTest):
         self.assertIn("layer", heading.split())
         self.assertEqual([line.split()[3] for line in lines], ["0"] * 3 + ["1"] * 2)
         for name, *more in ("o.stl", "--merge"), ("o.msh",):
-            self.refused("the labels lie in several layers .* --component, or give a folder",
+            self.refused("the labels are in several layers .* --component, or give a folder",
                          volume, self.path(name), "--labels", "1", *more)
         self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", 1)
         unnamed = self.nrrd(layers)
         for reason, *options in (("2 components; choose the one that is a label with --component",),
-                                 ("there is no component 2", "--component", "2")):
+                                 ("--component 2 is out of range", "--component", "2")):
             self.refused(reason, unnamed, self.path("o/"), "--labels", "all", *options)
 
     def test_layers_of_older_files(self):

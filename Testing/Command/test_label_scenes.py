@@ -134,7 +134,7 @@ class ScenesTest(LabelsTest):
         np.testing.assert_allclose(color, [*linear((204, 204, 204)), 1])
         root, name, *_ = self.three_mf("b.3mf")
         self.assertEqual((name, root.get("unit")), ("surface", "micron"))
-        self.refused(r"u.3mf: 3MF has no unit nm; --unit mm converts", volume, self.path("u.3mf"),
+        self.refused(r"u.3mf: 3MF does not support the unit nm; use --unit mm", volume, self.path("u.3mf"),
                      "--iso", ISO, "--unit", "nm")
 
     def test_what_printers_need(self):

@@ -88,8 +88,8 @@ class OutputsTest(LabelsTest):
         self.assertGreater(read(self.path("o/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("o/liver.stl")[:80])
         self.write_bytes("o/notes.txt", b"")
-        for suffix, warning in (("stl", "warning: .*o: files of an earlier run are there: "
-                                 "label-2.stl; delete what is old"), (".ply", "^((?!warning).)*$")):
+        for suffix, warning in (("stl", "warning: .*o: files of an earlier run exist: "
+                                 "label-2.stl; delete them"), (".ply", "^((?!warning).)*$")):
             os.rename(self.path("o/liver.stl"), self.path("o/label-2.stl"))
             process = self.run_command(volume, folder, "--format", suffix, *options_)
             self.assertRegex(process.stderr.replace("\n", " "), warning)
@@ -112,9 +112,10 @@ class OutputsTest(LabelsTest):
         volume = self.map_file()
         self.run_command(volume, self.path("a.stl"), "--labels", "2")
         self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
-        self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
-                     r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), one mesh of all \(.*b.vtp, .vtk, "
-                     r".vtu, .inp, .msh, .smesh, .poly\), or .*--merge", volume,
+        self.refused(r"b.stl: a .stl file stores one surface, not 4; give a folder "
+                     r"\(.*b/ --format stl\), a file with several surfaces \(.*b.vtm, .glb, "
+                     r".3mf\) or with one mesh of all labels \(.*b.vtp, .vtk, .vtu, .inp, .msh, "
+                     ".smesh, .poly\), or set --merge", volume,
                      self.path("b.stl"), "--labels", "all")
         self.assertFalse(os.path.exists(self.path("b.stl")))
 
@@ -161,7 +162,7 @@ class ChoiceTest(unittest.TestCase):
     def test_those_that_are_not_there(self):
         for text in ("99", "10-20", "1,kidney", "", "k*"):
             with self.subTest(text), self.assertRaisesRegex(Failure, (
-                    r"there is no label '[^,]*' \(--labels\); there are -3, 0, 1 liver, "
+                    r"no label matches '[^,]*' \(--labels\); the labels are -3, 0, 1 liver, "
                     "2 Left lung, 7 spleen/x")):
                 choose([text], self.known, 0)
 
@@ -212,7 +213,7 @@ class WhatIsReadTest(LabelsTest):
         written = self.path("w.vti")
         process = self.run_command(self.path("organs/*.nii.gz"), self.path("a.vtp"), "--labels",
                                    "all", "--write-volume", written)
-        self.assertRegex(process.stderr, r"warning: .*in two masks \(liver and part 27\): the ")
+        self.assertRegex(process.stderr, r"warning: .*27 overlapping voxels \(liver and part 27\) ")
         self.assertIn("masks without a voxel: absent", process.stderr)
         listed = self.report(written, "--list-labels")["labels"]
         voxels_of["liver"] -= 27
@@ -227,9 +228,9 @@ class WhatIsReadTest(LabelsTest):
                 ("map.vti: .*0.5; labels must be integers", voxels, "all"),
                 ("map.vti: .*more than 4096", many, "all"),
                 ("map.vti: .*has no label 99999", many, "7,99999"),
-                ("map.vti: it has no label but the background, 0; .*--background",
+                ("map.vti: the only label is the background, 0; .*--background",
                  np.zeros((9, 9, 9), "u1"), "all"),
-                ("map.vti: there is no label '9'", label_voxels(), "9"),
+                ("map.vti: no label matches '9'", label_voxels(), "9"),
                 ("one slice", label_voxels()[8:9], "all")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
@@ -268,22 +269,22 @@ class OptionsTest(LabelsTest):
             self.assertEqual(changed, {name} - {"SelectedComponent", "SharedInterfaces"})
 
     def test_what_excludes_what(self):
-        refused = [(f"(--labels and {option}|{option}( .*)? and --labels) exclude each other",
+        refused = [(f"(--labels and {option}|{option}( .*)? and --labels) are mutually exclusive",
                     "out/ --labels 1", option, *value) for option, *value in (
                         ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
                         ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"))]
-        refused += [(f"{option} needs --labels", "out.stl", option, *value) for option, *value in (
+        refused += [(f"{option} requires --labels", "out.stl", option, *value) for option, *value in (
             ("--merge",), ("--box-faces", "flat"), ("--format", "stl"), ("--label-names", "n"))]
         for reason, line in (
-                ("no surface format", "o/ --format dwg"), ("o.v1: no surface format", "o.v1"),
-                ("'2' is not the name of a file; write a list of labels with commas", "o.vtp 2 3"),
-                ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", "2-3"),
-                ("'liver' is not the name of a file; .* a folder with a slash", "o.vtp liver"),
-                ("--format is that of the files in a folder", "o.stl --format stl"),
-                ("the standard output", "-"), ("no file to write", ""),
-                ("--thin-parts and --labels exclude each other; --edge-length", "o/ --thin-parts"),
-                ("--gap is gone: labels that touch share", "o/ --gap 1"),
-                ("--merge makes one surface; give a file", "o/ --merge")):
+                ("unknown suffix", "o/ --format dwg"), ("o.v1: unknown suffix", "o.v1"),
+                ("'2' is not a file name; separate labels by commas", "o.vtp 2 3"),
+                ("'2-3' is not a file name; .*--labels 1,2-3.*", "2-3"),
+                ("'liver' is not a file name; .* end a folder with a slash", "o.vtp liver"),
+                ("--format requires a folder as output", "o.stl --format stl"),
+                ("the standard output", "-"), ("no output is given", ""),
+                ("--thin-parts and --labels are mutually exclusive; use --edge-length", "o/ --thin-parts"),
+                ("--gap is not supported: adjacent labels share", "o/ --gap 1"),
+                ("--merge yields one surface; give a file", "o/ --merge")):
             refused.append((reason, "--labels 1 " + line))
         for reason, line, *more in refused:
             with self.subTest(line, more=more), self.assertRaisesRegex(UsageError, reason):
@@ -298,7 +299,7 @@ class OptionsTest(LabelsTest):
             self.assertEqual(sorted(os.listdir(self.path(f"o{number}"))),
                              ["label-1.vtp", "label-9.vtp"])
         for reason, *more in (
-                ("none of the labels has a surface", "--keep", "large",
+                ("the surfaces of all labels are empty", "--keep", "large",
                  "--minimum-component-volume", "99"),
                 ("dot.vti: --smoothing is -1", "--smoothing", "-1")):
             self.no_surfaces(reason, volume, "--labels", "9", *more)
@@ -318,7 +319,7 @@ class RunTest(LabelsTest):
         rest = self.interrupted(
             r"Making surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
             "all", "--threads", "1", "--finest", "-1", "--report", self.path("r.json"))
-        self.assertIn("unfinished (cancelled); the surfaces as they are were written", rest)
+        self.assertIn("unfinished (cancelled): the current surfaces were written", rest)
         report = json.loads(self.content("r.json"))
         self.assertFalse(report["finished"])
         self.assertEqual(len(report["labels"]), 64)
@@ -327,7 +328,7 @@ class RunTest(LabelsTest):
         self.assertEqual({self.path("o/") + name for name in os.listdir(self.path("o"))}, written)
 
     def test_a_time_limit(self):
-        self.no_surfaces("the time limit came before there was a surface", self.many_labels(4),
+        self.no_surfaces("time limit reached before a surface was computed", self.many_labels(4),
                          "--labels", "all", "--time-limit", "1e-9")
 
 

@@ -82,53 +82,53 @@ class OptionTableTest(CommandTestCase):
 
     def test_wrong_usage(self):
         for reason, line in (
-                ("no volume", ""), ("no file to write", "a.vti"),
+                ("VOLUME is missing", ""), ("no output is given", "a.vti"),
                 ("unknown option --isoo", "--isoo 3"), ("unknown option -z", "-z"),
-                ("--iso needs", "a b.stl --iso"),
+                ("--iso requires an argument", "a b.stl --iso"),
                 ("--iso: 'x' is not a number", "a b.stl --iso x"),
-                ("--levels: '2.5' is not a whole number", "a b.stl --levels=2.5"),
+                ("--levels: '2.5' is not an integer", "a b.stl --levels=2.5"),
                 ("--dark takes no", "a b.stl --dark=on"),
-                (r"--recovery: 'all' is none of none\|objects", "a b.stl --recovery all"),
-                ("--spacing: .* are 2 numbers, not 3", "a b.stl --spacing 1,2"),
-                ("--memory is gone: .*--scratch", "a b.stl --memory 2G"),
-                ("--resume is gone", "a b.stl --resume"),
-                ("--profile is gone", "a b.stl --profile"),
+                (r"--recovery: 'all' is not one of none\|objects", "a b.stl --recovery all"),
+                ("--spacing: .* has 2 numbers instead of 3", "a b.stl --spacing 1,2"),
+                ("--memory is not supported: .*--scratch", "a b.stl --memory 2G"),
+                ("--resume is not supported", "a b.stl --resume"),
+                ("--profile is not supported", "a b.stl --profile"),
                 ("did you mean --iso", "a b.stl --ios 3"),
                 ("--time: -1 is less than 0", "a b.stl --time -1"),
                 ("--threads: '-1' is out of range", "a b.stl --threads -1"),
-                ("--time and --phase exclude", "a b.stl --time 1 --phase 1"),
-                ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
-                ("exclude each other", "a b.stl --seeds c --initial-surface d"),
-                ("--seed-position: .* are 2 numbers", "a b.stl --seed-position 1,2"),
-                ("exclude each other", "a b.stl --seed-position 1,2,3 --initial-surface d"),
-                ("out.stl: --list-labels makes no surfaces", "a --list-labels out.stl"),
-                ("--merge and --list-labels exclude each other", "a --list-labels --merge"),
-                ("--list-labels and --format exclude", "a --list-labels --format stl"),
-                ("--iso and --list-labels exclude", "a --list-labels --iso 3"),
-                ("--list-labels and --seeds exclude", "a --list-labels --seeds a.txt"),
-                ("no volume is given", "--list-labels"),
-                ("--scale: 0 must be more than 0", "a b.stl --scale 0"),
-                ("--unit: 'inch' is none of m, cm, mm", "a b.stl --unit inch"),
-                ("--space: 'XYZ' is none of LPS, RAS, as-file", "a b.stl --space XYZ"),
-                ("--scale and --unit exclude", "a b.stl --scale 2 --unit mm"),
-                ("'none' is none of closed, marked, open", "a b.vtp --ends none"),
-                ("--ends open and files of solids, which are closed", "a b.smesh --ends open"),
-                ("'netgen' is none of tetgen, gmsh", "a b.stl --mesher netgen"),
-                ("--mesher needs a file of tetrahedra", "a b.stl --mesher gmsh"),
-                ("needs a file of tetrahedra", "a b.stl --maximum-volume 2"),
-                ("--triangles and --tolerance exclude", "a b.vtp --triangles 999 --tolerance .1"),
+                ("--time and --phase are mutually exclusive", "a b.stl --time 1 --phase 1"),
+                ("--edge-attraction requires --edges", "a b.stl --edge-attraction 1"),
+                ("are mutually exclusive", "a b.stl --seeds c --initial-surface d"),
+                ("--seed-position: .* has 2 numbers", "a b.stl --seed-position 1,2"),
+                ("are mutually exclusive", "a b.stl --seed-position 1,2,3 --initial-surface d"),
+                ("out.stl: --list-labels writes no surfaces", "a --list-labels out.stl"),
+                ("--merge and --list-labels are mutually exclusive", "a --list-labels --merge"),
+                ("--list-labels and --format are mutually exclusive", "a --list-labels --format stl"),
+                ("--iso and --list-labels are mutually exclusive", "a --list-labels --iso 3"),
+                ("--list-labels and --seeds are mutually exclusive", "a --list-labels --seeds a.txt"),
+                ("VOLUME is missing", "--list-labels"),
+                ("--scale: 0 is not greater than 0", "a b.stl --scale 0"),
+                ("--unit: 'inch' is not one of m, cm, mm", "a b.stl --unit inch"),
+                ("--space: 'XYZ' is not one of LPS, RAS, as-file", "a b.stl --space XYZ"),
+                ("--scale and --unit are mutually exclusive", "a b.stl --scale 2 --unit mm"),
+                ("'none' is not one of closed, marked, open", "a b.vtp --ends none"),
+                ("b.smesh: tetrahedral meshers require a closed surface", "a b.smesh --ends open"),
+                ("'netgen' is not one of tetgen, gmsh", "a b.stl --mesher netgen"),
+                ("--mesher requires a tetrahedral mesh", "a b.stl --mesher gmsh"),
+                ("requires a tetrahedral mesh as output", "a b.stl --maximum-volume 2"),
+                ("--triangles and --tolerance are mutually exclusive", "a b.vtp --triangles 999 --tolerance .1"),
                 ("--triangles: 19 is less than 20", "a b.vtp --triangles 19"),
-                ("--region: .* ends before it begins", "a b.vtp --region 5,4,0,5,0,5"),
-                ("--region: '4.5' is not a whole number", "a b.vtp --region 0,4.5,0,5,0,5"),
-                ("--region and --region-box exclude",
+                ("--region: .* a minimum exceeds its maximum", "a b.vtp --region 5,4,0,5,0,5"),
+                ("--region: '4.5' is not an integer", "a b.vtp --region 0,4.5,0,5,0,5"),
+                ("--region and --region-box are mutually exclusive",
                  "a b.vtp --region 0,4,0,5,0,5 --region-box 0,1,0,1,0,1"),
-                ("--edges and --resample exclude", "a b.vtp --edges a --resample 1,1,1"),
-                ("--resample and --isotropic exclude", "a b.vtp --resample 1,1,1 --isotropic"),
-                ("--resample: 0 must be more than 0", "a b.vtp --resample 1,0,1"),
-                ("--probe-depth needs --probe", "a b.vtp --probe-depth 1")):
+                ("--edges and --resample are mutually exclusive", "a b.vtp --edges a --resample 1,1,1"),
+                ("--resample and --isotropic are mutually exclusive", "a b.vtp --resample 1,1,1 --isotropic"),
+                ("--resample: 0 is not greater than 0", "a b.vtp --resample 1,0,1"),
+                ("--probe-depth requires --probe", "a b.vtp --probe-depth 1")):
             with self.subTest(line), self.assertRaisesRegex(UsageError, reason):
                 options.apply(options.parse(line.split()), Filters())
-        self.refused("suffix.*known are", "a", "b.xyz", status=2)
+        self.refused("unknown suffix of a surface format", "a", "b.xyz", status=2)
 
     def test_values_that_the_filter_refuses(self):
         for reason, *options in (
@@ -197,7 +197,7 @@ class RunTest(CommandTestCase):
 
     def test_iso_value_by_otsu_is_told(self):
         process = self.run_command(self.ball_file(), self.path("a.vtp"))
-        told = re.search(r"iso-value ([0-9.]+), a guess by Otsu", process.stderr)
+        told = re.search(r"iso-value ([0-9.]+), estimated by Otsu", process.stderr)
         self.assertTrue(100 < float(told.group(1)) < 900)
         self.assertEqual(self.run_command(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
 
@@ -248,7 +248,7 @@ class RunTest(CommandTestCase):
         from_array = self.report(both, "--iso", ISO, "--edges", "gradient")
         self.assertAlmostEqual(from_array["volume"] / from_file["volume"], 1.0, delta=0.02)
         small = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()[1:]))
-        self.refused("its size differs", self.ball_file(), self.path("a.stl"), "--edges", small)
+        self.refused("its dimensions differ", self.ball_file(), self.path("a.stl"), "--edges", small)
 
     def test_time_limit_is_marked(self):
         volume = self.waves_file()
@@ -257,9 +257,9 @@ class RunTest(CommandTestCase):
                                 "0", "--time-limit", limit, status=None)
             if run.returncode == 3:
                 break
-        self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
+        self.assertIn("unfinished (time limit): the current surface was written", run.stderr)
         self.assertIn(b"UNFINISHED: time limit", self.content("limited.stl")[:80])
-        self.refused("time limit came before there was a surface", volume, self.path("none.stl"),
+        self.refused("time limit reached before a surface was computed", volume, self.path("none.stl"),
                      "--iso", "0", "--time-limit", "1e-9")
         self.assertFalse(os.path.exists(self.path("none.stl")))
 

@@ -162,8 +162,8 @@ class WrittenTest(OutputsTest):
         names = ("a.vtp", "a.ply", "a.stl", "b.stl", "a.obj", "a.3mf")
         said = self.run_command(self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
                                 *map(self.path, names)).stderr
-        lost = re.findall(r"(.\.\w+): \.\w+ has no place for the values Thickness, ball; \.vtp, "
-                          r"\.vtk and \.ply have", said)
+        lost = re.findall(r"(.\.\w+): \.\w+ does not support the point arrays Thickness, ball; use "
+                          r"\.vtp, \.vtk or \.ply", said)
         self.assertEqual(lost, ["a.stl", "a.obj", "a.3mf"])
         whole = read(self.path("a.vtp")).GetPointData()
         head, body = self.content("a.ply").split(b"end_header\n")
@@ -174,8 +174,8 @@ class WrittenTest(OutputsTest):
             np.testing.assert_array_equal(rows[name], vtk_to_numpy(whole.GetArray(name)))
 
     def test_files_of_an_earlier_run_are_reported(self):
-        for output, old in (("l", "/l: files of an earlier run are there: level-1.vtp;"),
-                            ("m.vtm", "/m: files of an earlier run are there: m_1.vtp;")):
+        for output, old in (("l", "/l: files of an earlier run exist: level-1.vtp;"),
+                            ("m.vtm", "/m: files of an earlier run exist: m_1.vtp;")):
             words = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
             self.assertNotIn("earlier run", self.run_command(*words, 2).stderr)
             self.assertIn(old, self.run_command(*words, 1).stderr)
@@ -187,7 +187,7 @@ class WrittenTest(OutputsTest):
         self.write(vtkXMLImageDataWriter(), "tube.vti", make_image(voxels))
         said = self.run_command(self.path("tube.vti"), "--iso", ISO, "--ends", "marked", *map(
             self.path, ("a.vtp", "a.stl", "a.ply"))).stderr
-        self.assertIn("a.ply: .ply has no place for the numbers of caps", said)
+        self.assertIn("a.ply: .ply does not support numbers of caps", said)
         whole = read(self.path("a.vtp"))
         caps = vtk_to_numpy(whole.GetCellData().GetArray("Cap"))
         solids = re.findall(r"(?s)solid (\w+)\n(.*?)endsolid \1\n", self.content("a.stl").decode())

@@ -51,7 +51,7 @@ class ProbeTest(CommandTestCase):
         far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
         said = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--probe",
                                 far).stderr
-        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices lie outside this volume")
+        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices are outside this volume")
         surface = read(self.path("a.vtp"))
         self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
         self.refused("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
@@ -103,7 +103,7 @@ class ProbeTest(CommandTestCase):
                          "--probe-depth", "1")
         halves = self.write(vtkXMLImageDataWriter(), "two.vti",
                             make_image(np.where(self.twice_x() < 0, 3, 7).astype("u1")))
-        self.refused("--probe-depth: the mesh of several labels has no normals", halves,
+        self.refused("--probe-depth requires normals, which the mesh of several labels lacks", halves,
                      self.path("a.vtp"), "--labels", "all", "--probe", self.other(),
                      "--probe-depth", "1")
 

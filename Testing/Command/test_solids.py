@@ -282,9 +282,9 @@ class MesherTest(SolidsTest):
     def test_what_fails_is_told(self):
         """A program that is no mesher, and one that is killed: other files are written still,
         and nothing else is left behind."""
-        for script, said in (("echo sorry; exit 3", r"a.vtu: tetgen fails \(exit code 3\): sorry"),
-                             ("kill -9 $$", r"a.vtu: tetgen fails \(signal 9\)"),
-                             ("exit 0", "a.vtu: the mesher has made no tetrahedra")):
+        for script, said in (("echo sorry; exit 3", r"a.vtu: tetgen failed \(exit code 3\): sorry"),
+                             ("kill -9 $$", r"a.vtu: tetgen failed \(signal 9\)"),
+                             ("exit 0", "a.vtu: the mesher created no tetrahedra")):
             told, files = self.run_script(script)
             self.assertRegex(told, said)
             self.assertEqual(files, ["a.vtp"])
@@ -292,34 +292,34 @@ class MesherTest(SolidsTest):
     def test_it_can_be_stopped(self):
         """By a signal, by two at once, as timeout(1) sends them, and by the time limit."""
         for script, said, *options in (
-                ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen made"),
+                ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen was running"),
                 ("kill -TERM $PPID; kill -TERM $PPID; exec sleep 100",
-                 "a.vtu: interrupted while tetgen made"),
-                ("exec sleep 100", "a.vtu: the time limit came while tetgen made", "--time-limit",
-                 2)):
+                 "a.vtu: interrupted while tetgen was running"),
+                ("exec sleep 100", "a.vtu: time limit reached while tetgen was running",
+                 "--time-limit", 2)):
             told, files = self.run_script(script, *options)
             self.assertRegex(told, said)
             self.assertEqual(files, ["a.vtp"])
 
     def test_tetrahedra_without_number_are_refused(self):
         told, files = self.run_script("exit 9", "--maximum-volume", "1e-300")
-        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 means more than 2e.08 tetrahedra; "
-                         "choose at least [1-9]")
+        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 requires more than 2e.08 tetrahedra; "
+                         "set it to at least [1-9]")
         self.assertEqual(files, ["a.vtp"])
 
     def test_small_angles_are_told(self):
-        for height, told in ((0.01, "warning: the least dihedral angle .* degrees"), (1, "^$")):
+        for height, told in ((0.01, "warning: the minimum dihedral angle .* degrees"), (1, "^$")):
             mesh = "\n".join(["Vertices", "4", "0 0 0 0", "1 0 0 0", "0 1 0 0", f"0 0 {height} 0",
                               "Tetrahedra", "3",
                               *(f"1 2 3 4 {label}" for label in (1, 2, 4)), "End"])
-            said, _ = self.run_script(f"cat > solid.1.mesh <<.\n{mesh}\n.", status=0)
-            self.assertRegex("".join(re.findall("warning: the least.*", said)), told)
+            said, _ = self.run_script(f"cat > surface.1.mesh <<.\n{mesh}\n.", status=0)
+            self.assertRegex("".join(re.findall("warning: the minimum.*", said)), told)
 
 
 class OptionsTest(SolidsTest):
     def test_what_is_missing_is_told_before_the_work(self):
         environment = {**os.environ, "PATH": self.folder}
-        for options, said in (((), r"none of which is installed \(Debian: apt install tetgen\)"),
+        for options, said in (((), r"require TetGen or gmsh; .* \(Debian: apt install tetgen\)"),
                               (("--mesher", "gmsh"), r"gmsh is not installed \(Debian: apt")):
             for name in ("a.vtu", "a.inp"):
                 self.refused(said, self.path("missing.vti"), self.path(name), *options,

@@ -85,7 +85,7 @@ class SpaceTest(CommandTestCase):
         np.testing.assert_allclose(self.middle(), MIDDLE, atol=0.1)
         self.run_to("vtp", volume, "--space", "as-file")
         np.testing.assert_allclose(self.middle(), MIDDLE, atol=0.1)
-        self.refused("ball.vti: --space LPS: the file does not state which sides", self.ball_file(),
+        self.refused("ball.vti: --space LPS: the file does not state its coordinate", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--space", "LPS")
 
     def test_unit_and_scale(self):
@@ -101,7 +101,7 @@ class SpaceTest(CommandTestCase):
         self.assertEqual((scaled["area"], scaled["input"]["unit"]), (report["area"], "mm"))
         said, scaled = self.run_to("vtp", volume, "--scale", "3")
         self.assertEqual((scaled["input"]["unit"], self.fields()), ("", ["RAS", None]))
-        self.refused("--unit mm: the file does not state its unit.* by --scale", self.ball_file(),
+        self.refused("--unit mm: the file does not state its unit; use --scale", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--unit", "mm")
 
     def test_labels(self):

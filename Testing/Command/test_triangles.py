@@ -55,7 +55,7 @@ class TrianglesTest(CommandTestCase):
     def test_out_of_reach(self):
         process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
                                    "--triangles", 20, status=1)
-        self.assertRegex(process.stderr, "no edge length gives about so many; the nearest")
+        self.assertRegex(process.stderr, "no tolerance or edge length yields this number; the nearest")
         self.assertFalse(os.path.exists(self.path("a.vtp")))
 
 

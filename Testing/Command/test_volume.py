@@ -63,7 +63,7 @@ class WrittenVolumeTest(WritingTestCase):
 
     def test_what_cannot_be_written(self):
         volume = self.ball_file()
-        self.refused("a volume is written as .vti", volume, "--write-volume", "a.mha", status=2)
+        self.refused("volumes are written as .vti", volume, "--write-volume", "a.mha", status=2)
         self.refused("there is no folder", volume, "--write-volume", self.path("none/a.vti"))
         before = self.content("ball.vti")
         self.refused("ball.vti: cannot be written: it is the input", volume, "--write-volume", volume)
@@ -109,7 +109,7 @@ class ResampledVolumeTest(WritingTestCase):
         file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(cone, (1, 1, 4)))
         report = self.report(file, self.path("a.vtp"), "--iso", "0")
         self.assertRegex(report["input"]["resampling"],
-                         "resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface needs 8 voxels")
+                         "resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface requires 8 voxels")
         self.assertEqual(report["genus"], 0)
         self.assertAlmostEqual(report["volume"], 4 / 3 * np.pi * 10 ** 3, delta=300)
 
@@ -138,9 +138,9 @@ class RegionTest(WritingTestCase):
 
     def test_what_is_refused(self):
         for reason, *options in (
-                ("the region lies beside the volume, which has voxels k 0 to 17", "--region",
+                ("the region is outside the volume, whose index k ranges from 0 to 17", "--region",
                  "0,5,0,5,18,20"),
-                ("resampled it would have .* voxels", "--resample", "1e-6,1e-6,1e-6")):
+                ("resampling yields .* voxels", "--resample", "1e-6,1e-6,1e-6")):
             with self.subTest(reason):
                 self.refused(reason, self.ball_file(), self.path("a.vtp"), *options)
 

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/reference.md says of every property and array what the filters have, no more."""
+"""Tests that Documentation/reference.md lists all properties and arrays of the filters, and no
+others."""
 
 import math
 import os
@@ -19,12 +20,12 @@ DEFAULTS = {"on": True, "off": False, "none": math.nan, "infinite": math.inf,
 
 
 def property_names(algorithm):
-    """The properties of the filter's own class that are a number, a switch or a text."""
+    """Return the properties of the filter's own class that are a number, a bool or a string."""
     names = []
     for name in (name[3:] for name in vars(type(algorithm)) if name.startswith("Set")):
         try:
             value = getattr(algorithm, "Get" + name, lambda: None)()
-        except TypeError:  # of more than one value, such as the names of labels
+        except TypeError:  # takes arguments
             continue
         if isinstance(value, (int, float, str)):
             names.append(name)
@@ -32,18 +33,18 @@ def property_names(algorithm):
 
 
 def tables():
-    """For each heading the rows of the first table below it: {name: second column}."""
+    """Return the first table below each heading as {name: second column}."""
     with open(REFERENCE, encoding="utf-8") as file:
         sections = re.split(r"^#+ (.*)$", file.read(), flags=re.MULTILINE)
     found = {}
     for heading, text in zip(sections[1::2], sections[2::2]):
         rows = re.findall(r"^\| *`?([^|`]+?)`? *\| *([^|]*?) *\|", text, flags=re.MULTILINE)
-        found[heading] = dict(rows[2:])  # without the head and the line below it
+        found[heading] = dict(rows[2:])  # without the header
     return found
 
 
 def arrays_of(attributes):
-    """{name: type as the reference writes it}."""
+    """Return {name: type as in the reference}."""
     arrays = [attributes.GetAbstractArray(i) for i in range(attributes.GetNumberOfArrays())]
     return {a.GetName(): a.GetDataTypeAsString() + (f", {a.GetNumberOfComponents()}"
                                                     if a.GetNumberOfComponents() > 1 else "")
@@ -60,7 +61,7 @@ class ReferenceTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        if cls is not ReferenceTest:  # One run serves all classes.
+        if cls is not ReferenceTest:  # one run for all classes
             if not hasattr(ReferenceTest, "tables"):
                 ReferenceTest.setUpClass()
             return
@@ -93,8 +94,8 @@ class PropertiesTest(ReferenceTest):
                     default = DEFAULTS[text] if text in DEFAULTS else float(text)
                     np.testing.assert_equal(getattr(algorithm, "Get" + name)(), default)
 
-    def test_printing_tells_all(self):
-        """A filter prints the table of its properties."""
+    def test_print_self(self):
+        """PrintSelf prints all properties."""
         for kind in (volumic.vtkImagePyramid, volumic.vtkDeformableSurface,
                      volumic.vtkVolumeToSurface, volumic.vtkLabelsToSurfaces):
             algorithm = kind()
@@ -108,7 +109,7 @@ class PropertiesTest(ReferenceTest):
                 else:
                     np.testing.assert_allclose(float(printed[name]), value, 1e-5, 0, name)
 
-    def test_no_class_is_left_out(self):
+    def test_all_classes_are_documented(self):
         classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
                    and hasattr(getattr(volumic, name), "GetOutputPort")]
         self.assertGreater(len(classes), 3)
