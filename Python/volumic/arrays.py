@@ -67,21 +67,9 @@ class Surface:
         return self._polydata
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a file and replace an existing one once it is complete.
-
-        Parameters
-        ----------
-        path : str or path-like
-            The suffix determines the format: .vtp or .vtk (all arrays), .ply (points, normals,
-            triangles), .stl or .obj.
-
-        Raises
-        ------
-        ValueError
-            The suffix is unknown.
-        OSError
-            The file cannot be written.
-        """
+        """Write a .vtp or .vtk (all arrays), .ply (points, normals, triangles), .stl or .obj file.
+        An existing file is replaced once the new one is complete. Raise ValueError if the suffix is
+        unknown."""
         replace_file(path, self.to_bytes(os.path.splitext(path)[1].lower()))
 
     def to_bytes(self, suffix: str) -> bytes:
@@ -154,7 +142,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     start : sequence of 3 ints, optional
         Index x, y, z of the first voxel if `array` is a crop. `origin` is that of the whole volume.
     **properties
-        Properties of vtkVolumeToSurface, such as `FinestLevel=1`.
+        Properties of vtkVolumeToSurface, such as `FinestLevel=1`; see its help.
 
     Returns
     -------
@@ -216,7 +204,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
     spacing, origin, direction, start
         See `volumic.surface`.
     **properties
-        Properties of vtkLabelsToSurfaces, such as `Smoothing=1.5`.
+        Properties of vtkLabelsToSurfaces, such as `Smoothing=1.5`; see its help.
 
     Returns
     -------

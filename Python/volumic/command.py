@@ -50,7 +50,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: Namespace, console: Console) -> int:
-    """Run the parsed command. Return the exit code."""
     _use_own_threads(options)
     if options.help or options.version or options.list_properties:
         filters = Filters()

@@ -58,10 +58,10 @@ def unmatched(edges: np.ndarray) -> np.ndarray:
     return ~np.isin(keys, edges @ (1, size))
 
 
-def _turns_more(old: np.ndarray, new: np.ndarray, least: float) -> np.ndarray:
-    """Return whether the cosine of the angle between vectors is less than `least`."""
+def _turns_more(old: np.ndarray, new: np.ndarray, minimum: float) -> np.ndarray:
+    """Return whether the cosine of the angle between vectors is less than `minimum`."""
     lengths = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
-    return (old * new).sum(1) < least * lengths
+    return (old * new).sum(1) < minimum * lengths
 
 
 class Cutter:
@@ -89,7 +89,6 @@ class Cutter:
             setattr(self, name, np.concatenate([values, added]))
 
     def add_loops(self, edges: np.ndarray, faces: np.ndarray) -> None:
-        """Add boundary edges of caps."""
         self.loops = np.concatenate([self.loops, edges])
         self.faces = np.concatenate([self.faces, np.broadcast_to(faces, len(edges))])
 
@@ -127,8 +126,8 @@ class Cutter:
         distances = plane.distances(self.points)
 
         def classify(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            least, most = distances[cells].min(1), distances[cells].max(1)
-            return (least < 0) & (most <= 0), (least < 0) & (most > 0)
+            minimum, maximum = distances[cells].min(1), distances[cells].max(1)
+            return (minimum < 0) & (maximum <= 0), (minimum < 0) & (maximum > 0)
 
         kept, split = classify(self.triangles)
         kept_loops, split_loops = classify(self.loops) if len(self.loops) else (self.faces > 0,) * 2
@@ -300,9 +299,9 @@ class Cutter:
         after = to[changed]
         turned = _turns_more(normals_of(self.points, changed), normals_of(points, after),
                              MINIMUM_COSINE)
-        least = np.full(len(removed), 15.0)
-        np.minimum.at(least, whose, _minimum_angles(self.points, changed))
-        worse = turned | (_minimum_angles(points, after) < least[whose])
+        minimum = np.full(len(removed), 15.0)
+        np.minimum.at(minimum, whose, _minimum_angles(self.points, changed))
+        worse = turned | (_minimum_angles(points, after) < minimum[whose])
         rejected = np.zeros(len(removed), bool)
         rejected[whose[worse & (after != np.roll(after, 1, axis=1)).all(axis=1)]] = True
         to[removed[rejected]] = removed[rejected]
@@ -323,12 +322,12 @@ class Cutter:
 
 def _minimum_angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     """Return the minimum angle of each triangle in degrees."""
-    corners, least = points[triangles], np.full(len(triangles), np.inf)
+    corners, minimum = points[triangles], np.full(len(triangles), np.inf)
     for i in range(3):
         a, b = corners[:, i - 1] - corners[:, i], corners[:, i - 2] - corners[:, i]
         across = np.linalg.norm(np.cross(a, b), axis=1)
-        least = np.minimum(least, np.arctan2(across, (a * b).sum(1)))
-    return np.degrees(least)
+        minimum = np.minimum(minimum, np.arctan2(across, (a * b).sum(1)))
+    return np.degrees(minimum)
 
 
 def _apart(chosen: np.ndarray, edges: np.ndarray, size: int) -> np.ndarray:

@@ -9,14 +9,16 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from .cutting import Cutter, NotFlat, Plane, edges_of, normals_of, unmatched
 from .errors import Failure
+from .writing.regions import cell_array, find_regions, points_of, triangles_of
 
 MAXIMUM_TRIES = 24
-STEP = 0.02         # inward distance between two attempts, in edge lengths
+STEP = 0.02          # inward distance between two attempts, in edge lengths
 SMOOTHING_STEPS = 3  # for points inside a cap
-CLEARANCE = 0.6     # of these points from the boundary, in edge lengths
+CLEARANCE = 0.6      # of these points from the boundary, in edge lengths
 
 
 def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
@@ -29,7 +31,6 @@ def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
     """
     if ends == "closed" or surface.GetNumberOfPolys() == 0:
         return surface
-    from .writing.regions import cell_array, triangles_of
     triangles, box = triangles_of(surface), cell_array(surface, "BoxFace")
     if box is not None:
         source, sides = np.arange(len(triangles)), cell_array(surface, "BoundaryLabels")
@@ -96,11 +97,10 @@ def _cut_ends(surface: Any, triangles: np.ndarray, image: Any, closed: bool
            ) -> tuple[Cutter, np.ndarray, np.ndarray] | None:
     """Return the cut surface, its triangles and the box face of each (0: none), or None if every
     attempt fails. Each attempt moves the planes further inward."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     matrix = image.GetDirectionMatrix()
     turn = np.array([[matrix.GetElement(i, j) for j in range(3)] for i in range(3)])
     origin = np.array(image.GetOrigin())
-    points = (vtk_to_numpy(surface.GetPoints().GetData()) - origin) @ turn
+    points = (points_of(surface) - origin) @ turn
     arrays = surface.GetPointData()
     data = [vtk_to_numpy(arrays.GetArray(i)).reshape(len(points), -1).astype(float)
             for i in range(arrays.GetNumberOfArrays())]
@@ -130,8 +130,7 @@ def _cut_ends(surface: Any, triangles: np.ndarray, image: Any, closed: bool
         walls = made[faces == 0]
         if not _intersects(cutter.points, walls, ~same[walls].all(axis=1)):
             cutter.points = origin + cutter.points @ turn.T
-            cutter.points[:size][same[:size]] = vtk_to_numpy(surface.GetPoints().GetData())[
-                same[:size]]
+            cutter.points[:size][same[:size]] = points_of(surface)[same[:size]]
             return cutter, made, faces
     return None
 
@@ -170,7 +169,7 @@ def _close_caps(cutter: Cutter) -> tuple[np.ndarray, np.ndarray]:
 
 class _Cap(NamedTuple):
     """The caps in a plane, or the boundary edges that are missing from the triangulation."""
-    outer: np.ndarray        # vertex indices
+    outer: np.ndarray      # vertex indices
     inner: np.ndarray      # coordinates of interior points
     triangles: np.ndarray  # indices of outer, then inner
     missing: np.ndarray
@@ -213,17 +212,9 @@ def _triangulate_cap(cutter: Cutter, plane: Plane, loops: np.ndarray) -> _Cap:
 
 def _triangulate_polygons(outer: np.ndarray, edges: np.ndarray, inner: np.ndarray
           ) -> tuple[np.ndarray, np.ndarray, Callable[[np.ndarray], np.ndarray] | None]:
-    """Triangulate polygons, which lie to the left of their edges.
-
-    Returns
-    -------
-    triangles : ndarray
-        Delaunay triangles inside the polygons.
-    missing : ndarray
-        Indices of edges that the triangulation lacks.
-    inside : callable or None
-        Returns whether points are inside; None if edges are missing.
-    """
+    """Return the Delaunay triangles in polygons, which lie to the left of their edges, the indices
+    of edges that the triangulation lacks, and, if there are none, a function that returns whether
+    points are inside."""
     from scipy.spatial import Delaunay
     low, high = outer.min(0), outer.max(0)
     turn = np.linspace(0, 2 * np.pi, 16, endpoint=False)
@@ -283,7 +274,6 @@ def _make_surface(surface: Any, triangles: np.ndarray, source: np.ndarray,
                   marks: dict[str, np.ndarray] | None = None, cutter: Cutter | None = None) -> Any:
     """Return a surface of new triangles. `source` is the polygon whose cell data a triangle gets
     (-1: those of its component). Points are those of the cutter, if any. Lines are kept."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
     made, cells, points = vtkPolyData(), vtkCellArray(), vtkPoints()
@@ -332,9 +322,7 @@ def _make_surface(surface: Any, triangles: np.ndarray, source: np.ndarray,
 def update_measures(surface: Any) -> None:
     """Update field and cell data that describe components (largest area first), genus, area and
     volume. An open surface loses its volume and the arrays that depend on it."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-    from .writing.regions import find_regions, triangles_of
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    points = points_of(surface).astype(float)
     triangles = triangles_of(surface)
     edges = edges_of(triangles)
     part = _connected_components(*edges.T)
@@ -374,13 +362,14 @@ def update_measures(surface: Any) -> None:
              "ComponentArea": area[order], "ComponentVolume": volume, "ComponentGenus": genus,
              "ComponentOwner": owner, "ComponentCentroid": center + points.mean(0),
              "ComponentInertia": inertia}
-    solid = ("Volume", "ComponentVolume", "ComponentOwner", "ComponentCentroid", "ComponentInertia")
+    closed_only = ("Volume", "ComponentVolume", "ComponentOwner", "ComponentCentroid",
+                   "ComponentInertia")
     cells = {"Component": of, **{name: np.asarray(whole[name])[of] for name in (
         "ComponentArea", "ComponentVolume", "ComponentGenus")}}
     for data, values in ((surface.GetFieldData(), whole), (surface.GetCellData(), cells)):
         for name, numbers in values.items():
             old = data.GetArray(name)
-            if old is not None and len(border) and name in solid:
+            if old is not None and len(border) and name in closed_only:
                 data.RemoveArray(name)
             elif old is not None:
                 array = numpy_to_vtk(np.ascontiguousarray(numbers), deep=True,

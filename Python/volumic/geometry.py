@@ -25,6 +25,7 @@ from .options import has_property, needs_surface
 from .reading.volume import METERS, Volume
 from .vtkFiltersVolumic import vtkVolumeToSurface
 from .writing.meshers import DistinctNames
+from .writing.regions import points_of
 
 MINIMUM_SIZE = 8       # voxels along an axis, required by a pyramid level
 MAXIMUM_VOXELS = 1e11  # of a resampled image
@@ -120,8 +121,7 @@ def _factor(one: str, other: str) -> float:
 
 @dataclasses.dataclass
 class LoadedVolume:
-    """The volume of the command line."""
-    image: Any            # vtkImageData of one component, with field data
+    image: Any            # vtkImageData with field data; one component unless labels
     volume: Volume        # all components
     world: World
     component: int | None  # selected one of several; -1: magnitude
@@ -141,7 +141,6 @@ def image_of(volume: Volume, array: np.ndarray) -> Any:
 
 
 def read(path: str, console: Console, **choice: Any) -> Volume:
-    """Read a volume and print its warnings."""
     volume = reading.read(path, **choice)
     for text in volume.warnings:
         console.warn(f"{path}: {text}")
@@ -168,14 +167,14 @@ def load_volume(options: Namespace, filters: Filters, console: Console,
     count = 1 if volume.array.ndim == 3 else len(volume.array)
     selected = None if count == 1 else -1 if component is None else component
     scalars = image.GetPointData().GetScalars()
-    least, most = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
+    minimum, maximum = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
     text = f"{describe(part)}, {image.GetScalarTypeAsString()}"
     if announce:
         what = "magnitude" if selected == -1 else f"component {selected}"
         console.info(f"{path}: {text}" + (f", {what} of {count} components (--component)"
                                           if count > 1 else "")
-                     + f", {number_text(least)} to {number_text(most)}{world.text()}")
-    return LoadedVolume(image, volume, world, selected, (least, most), text)
+                     + f", {number_text(minimum)} to {number_text(maximum)}{world.text()}")
+    return LoadedVolume(image, volume, world, selected, (minimum, maximum), text)
 
 
 def describe(volume: Volume) -> str:
@@ -286,7 +285,7 @@ class Probes:
             for surface in surfaces:
                 if surface is None or surface.GetNumberOfPoints() == 0:
                     continue
-                points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+                points = points_of(surface).astype(float)
                 normals = surface.GetPointData().GetNormals()
                 values, is_outside = _values(volume, points, labels)
                 if self.depth and normals is not None and not labels:

@@ -96,7 +96,7 @@ def layers_of(image: Any, names: Sequence[Label], component: int | None) -> list
     chosen = sorted({label.layer for label in names if label.layer < count})
     chosen = chosen if component is None else [max(component, 0)]
     if not chosen:
-        raise Failure(f"voxels have {count} components; choose the one with labels with "
+        raise Failure(f"voxels have {count} components; choose the label component with "
                       "--component")
     layers = []
     for layer in chosen:

@@ -63,11 +63,11 @@ def number_text(value: float) -> str:
     return str(value) if isinstance(value, int) else repr(float(value)).removesuffix(".0")
 
 
-def one_line(text: str, most: int = 1500) -> str:
-    """Return a text without line ends and control characters, shortened in the middle to `most`
+def one_line(text: str, maximum: int = 1500) -> str:
+    """Return a text without line ends and control characters, shortened in the middle to `maximum`
     characters."""
     text = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return text if len(text) <= most else f"{text[:most // 2]} ... {text[-most // 2:]}"
+    return text if len(text) <= maximum else f"{text[:maximum // 2]} ... {text[-maximum // 2:]}"
 
 
 def _write(text: str) -> None:
@@ -92,7 +92,6 @@ class Console:
             self.error(text)
 
     def warn(self, text: str) -> None:
-        """Print a warning."""
         self.info(f"warning: {text}")
 
     def error(self, text: str) -> None:
@@ -134,7 +133,6 @@ class Progress:
 # ---- Algorithms --------------------------------------------------------------------------------
 
 class Run(NamedTuple):
-    """Result of a run of an algorithm."""
     seconds: float = 0.0
     warnings: tuple[str, ...] = ()
     interrupted: bool = False
@@ -142,21 +140,9 @@ class Run(NamedTuple):
 
 def update(algorithm: Any, on_progress: Callable[[], None] = lambda: None
            ) -> tuple[list[str], list[str]]:
-    """Update an algorithm, or call Write() of a writer.
-
-    VTK holds Python's interpreter lock while it runs. At ProgressEvent, signal handlers are called
-    and other threads can run.
-
-    Parameters
-    ----------
-    algorithm : vtkAlgorithm
-    on_progress : callable, optional
-        Called at each ProgressEvent.
-
-    Returns
-    -------
-    errors, warnings : list of str
-    """
+    """Update an algorithm, or call Write() of a writer. Return errors and warnings. `on_progress`
+    is called at each ProgressEvent. VTK holds Python's interpreter lock while it runs; at these
+    events, signal handlers are called and other threads can run."""
     from vtkmodules.util.misc import calldata_type
     from vtkmodules.util.vtkConstants import VTK_STRING
     errors: list[str] = []

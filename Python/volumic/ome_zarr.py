@@ -72,18 +72,9 @@ class Volume:
         return whole if dtype is None else whole.astype(dtype)
 
     def missing_chunks(self) -> tuple[int, int]:
-        """Count missing chunk files, whose voxels zarr reads as the fill value.
-
-        Returns
-        -------
-        missing, total : int
-            Numbers of chunks; (0, 0) if the array is not a local folder.
-
-        Raises
-        ------
-        ValueError
-            A file is truncated. Blosc has no checksums and does not detect this.
-        """
+        """Return the numbers of missing chunk files, whose voxels zarr reads as the fill value, and
+        of all chunks; (0, 0) if the array is not a local folder. Raise ValueError if a file is
+        truncated, which Blosc does not detect."""
         shards = getattr(self.array, "shards", None)
         needed = set(itertools.product(*(
             range(-(-length // size)) if index is None else [index // size] for length, size, index

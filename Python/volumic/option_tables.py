@@ -21,7 +21,6 @@ Parse = Callable[[str], Any]
 # ---- Parsers of values; they raise UsageError ---------------------------------------------------
 
 def number(text: str) -> float:
-    """Return a finite number."""
     if not re.fullmatch(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", text) \
             or not math.isfinite(float(text)):
         raise UsageError(f"'{text}' is not a number")
@@ -35,17 +34,16 @@ def integer(text: str) -> int:
     return int(text)
 
 
-def at_least(least: int, parse: Parse = integer) -> Parse:
+def at_least(bound: int, parse: Parse = integer) -> Parse:
     """Return a parser of numbers that are not less than a bound."""
     def parse_limited(text: str) -> Any:
-        if parse(text) < least:
-            raise UsageError(f"{text} is less than {least}")
+        if parse(text) < bound:
+            raise UsageError(f"{text} is less than {bound}")
         return parse(text)
     return parse_limited
 
 
 def positive(text: str) -> float:
-    """Return a positive number."""
     if number(text) <= 0:
         raise UsageError(f"{text} is not greater than 0")
     return number(text)
@@ -103,7 +101,6 @@ class Property(NamedTuple):
     value: Any = None
 
     def get(self, filters: Any) -> str:
-        """Return the current value as text."""
         value = getattr(filters.by_class(self.cls), "Get" + self.name)()
         if "|" in self.metavar:
             return self.metavar.split("|")[value]
@@ -136,7 +133,6 @@ class Filters:
         self.labels = vtk.vtkLabelsToSurfaces()
 
     def by_class(self, name: str) -> Any:
-        """Return the filter of a class."""
         return {SURFACE: self.surface, PYRAMID: self.pyramid, LABELS: self.labels}[name]
 
     def copy_common_properties(self) -> None:

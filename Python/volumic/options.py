@@ -145,7 +145,6 @@ def _unknown(argument: str, known: dict[str, Any]) -> None:
 
 
 def has_property(options: argparse.Namespace, name: str) -> bool:
-    """Return whether the command line sets a property."""
     return any(item.name == name for item, _ in options.properties)
 
 
@@ -166,7 +165,6 @@ def needs_surface(options: argparse.Namespace) -> bool:
 
 
 def writes_tetrahedra(options: argparse.Namespace) -> bool:
-    """Return whether an output is a tetrahedral mesh."""
     from .writing.tetrahedra import needs_mesher
     names = options.surfaces + ([f"in_folder.{options.format}"] if options.format else [])
     return any(needs_mesher(name, options.mesher) for name in names)

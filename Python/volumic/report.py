@@ -57,11 +57,6 @@ def field_values(data: Any, names: dict[str, str]) -> dict[str, Any]:
             for name, values in found.items() if values is not None and values.size}
 
 
-def stop_reason(surface: Any) -> str:
-    """Return the field data `StopReason`."""
-    return field_text(surface, "StopReason")
-
-
 def input_summary(name: str, loaded: LoadedVolume) -> dict[str, Any]:
     """Return the report entry `input`, the properties of the volume."""
     image, world = loaded.image, loaded.world
@@ -78,7 +73,8 @@ def input_summary(name: str, loaded: LoadedVolume) -> dict[str, Any]:
 def surface_summary(surface: Any) -> dict[str, Any]:
     """Return the report entries of a surface, from its field data and cells."""
     return {**field_values(surface, SURFACE_FIELDS), "vertices": surface.GetNumberOfPoints(),
-            "triangles": surface.GetNumberOfPolys(), "stop_reason": stop_reason(surface)}
+            "triangles": surface.GetNumberOfPolys(),
+            "stop_reason": field_text(surface, "StopReason")}
 
 
 def component_features(surface: Any) -> list[dict[str, Any]]:
@@ -158,18 +154,9 @@ def describe_print(printed: bool, surfaces: Sequence[Any], unit: str) -> str:
 def volume_report(volume_name: str, loaded: LoadedVolume, filters: Filters, surface: Any,
                   finished: bool, seconds: tuple[float, float], reader_memory: float, mesh: Any,
                   warnings: Sequence[str]) -> str:
-    """Return the report of a surface as JSON.
-
-    Parameters
-    ----------
-    surface : vtkPolyData
-        The surface as written.
-    seconds : pair of float
-        Run times of the pyramid and of the surface.
-    reader_memory : float
-        peak_memory() after reading, MiB.
-    mesh : TetrahedralMesh or None
-    """
+    """Return the report of a surface, as written, in JSON. `seconds` are the run times of pyramid
+    and surface, `reader_memory` is peak_memory() after reading, `mesh` a TetrahedralMesh or
+    None."""
     properties = property_values(filters, lambda item: item.cls != "vtkLabelsToSurfaces")
     return finish({
         "input": input_summary(volume_name, loaded),

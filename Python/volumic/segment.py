@@ -30,7 +30,6 @@ NO_RESULT = "a surface was computed; no file was written"
 # ---- Files -------------------------------------------------------------------------------------
 
 def inputs_of(options: Namespace) -> list[str]:
-    """Return all files that a run reads."""
     paths = list_files(options.volume, options.choice)
     for path in [options.edges, *options.probe]:
         paths += list_files(path, None) if path and os.path.exists(path) else []
@@ -40,7 +39,6 @@ def inputs_of(options: Namespace) -> list[str]:
 
 
 def other_outputs(options: Namespace) -> list[files.OutputName]:
-    """Return the outputs other than the surfaces."""
     outputs = []
     for name, prefix in ((options.levels_output, "level"), (options.snapshots, "snapshot")):
         if name:
@@ -110,10 +108,10 @@ def set_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, console: Con
     otsu.SetInputData(loaded.image)
     messages.run(otsu, "Otsu's threshold", Console(quiet=True), with_option_names)
     surface.SetIsoValue(otsu.GetThreshold())
-    least = loaded.range[0]
-    padding = least < -1024 and otsu.GetHistogram().GetValue(0) > least
+    minimum = loaded.range[0]
+    padding = minimum < -1024 and otsu.GetHistogram().GetValue(0) > minimum
     console.info(f"iso-value {number_text(otsu.GetThreshold())}, estimated by Otsu's threshold"
-                 + (f" without padding voxels of value {number_text(least)}" if padding else "")
+                 + (f" without padding voxels of value {number_text(minimum)}" if padding else "")
                  + "; set another value with --iso")
 
 
@@ -173,7 +171,7 @@ class Segmentation:
         self.report_warnings(run)
         self.seconds[1] = run.seconds
         if surface.GetOutput().GetNumberOfPolys() == 0:
-            if report.stop_reason(surface.GetOutput()) == "time limit":
+            if geometry.field_text(surface.GetOutput(), "StopReason") == "time limit":
                 raise Interrupted("time limit reached before " + NO_RESULT)
             if run.interrupted:
                 raise Interrupted("interrupted before " + NO_RESULT)
@@ -190,7 +188,6 @@ class Segmentation:
         return ("above " if bright else "below ") + iso
 
     def find_triangles(self) -> Run:
-        """Compute the surface with about --triangles triangles."""
         surface, last, seconds = self.filters.surface, Run(), 0.0
 
         def make(edge_length: float, tolerance: float) -> tuple[int, float]:
@@ -214,7 +211,7 @@ def write_outputs(run: Segmentation, surface: Any, is_finished: bool, mesher: Te
     """Write all outputs. Raise Failure with one line per file that cannot be written."""
     options, console = run.options, run.console
     filter_ = run.filters.surface
-    reason = report.stop_reason(filter_.GetOutput())
+    reason = geometry.field_text(filter_.GetOutput(), "StopReason")
     remark = "" if is_finished else f", UNFINISHED: {reason}"
     failures = files.Failures()
     for data in (surface, filter_.GetLevels(), filter_.GetSnapshots()):
@@ -288,7 +285,7 @@ def segment_volume(options: Namespace, filters: Filters, console: Console) -> in
         console.warn(f"{options.volume}: {text}")
     run.warnings += warnings
     probes.add_to(written)
-    reason = report.stop_reason(surface.GetOutput())
+    reason = geometry.field_text(surface.GetOutput(), "StopReason")
     is_finished = reason in ("converged", "limit cycle")
     mesher = make_mesher(options, filters, probes, sum(run.seconds))
     write_outputs(run, written, is_finished, mesher, reader_memory)
@@ -306,14 +303,12 @@ def make_mesher(options: Namespace, filters: Filters, probes: geometry.Probes,
 
 
 def is_for_printing(options: Namespace, names: Sequence[str]) -> bool:
-    """Return whether an output is for 3D printing."""
     return any(name.lower().endswith(".3mf") for name in names) \
         or (options.format or "").lower() in ("3mf", ".3mf")
 
 
 def _print_summary(run: Segmentation, surface: Any, mesher: TetrahedralMesher, reason: str,
                    is_finished: bool) -> None:
-    """Print a summary of the run."""
     console = run.console
     iterations = run.filters.surface.GetHistory().GetNumberOfRows()
     console.info(f"{surface.GetNumberOfPoints()} vertices after {iterations} iterations: {reason}")

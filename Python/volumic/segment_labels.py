@@ -46,12 +46,10 @@ def kind_of(name: str) -> str:
 
 
 def makes_mesh(options: Namespace) -> bool:
-    """Return whether an output is the mesh of all labels."""
     return not has_property(options, "Merge") and "mesh" in map(kind_of, options.surfaces)
 
 
 def suffix_in_folder(options: Namespace) -> str:
-    """Return the suffix of files in a folder, with the dot."""
     return "." + (options.format or "vtp").lstrip(".")
 
 
@@ -99,15 +97,12 @@ class LabelSurface:
 
     @property
     def is_present(self) -> bool:
-        """Whether the surface has points."""
         return self.surface.GetNumberOfPoints() > 0
 
     def count(self, name: str, default: int = 0) -> int:
-        """Return a number of the field data."""
         return report.field_values(self.surface, {name: name}).get(name, default)
 
     def summary(self) -> dict[str, Any]:
-        """Return the report entry of the surface."""
         first, *others = self.labels
         return {
             **({} if others else {"label": first.label}),
@@ -120,7 +115,6 @@ class LabelSurface:
 
 @contextlib.contextmanager
 def prefix_failures(path: str) -> Iterator[None]:
-    """Prefix failures with a path."""
     try:
         yield
     except Failure as failure:
@@ -149,7 +143,6 @@ class LabelRun:
             self.chosen = choose(options.labels, known, background)
 
     def warn(self, text: str) -> None:
-        """Print a warning and store it for the report."""
         self.console.warn(text)
         self.warnings.append(text)
 
@@ -222,7 +215,6 @@ class LabelRun:
                 sum(each.count("Area") for each in self.surfaces))
 
     def compute_layers(self) -> None:
-        """Compute the surfaces, layer by layer."""
         limit, self.meshes = self.filter.GetTimeLimit(), []
         for number, layer in enumerate(self.layers):
             own = [each for each in self.surfaces if each.labels[0].layer == number]
@@ -283,7 +275,6 @@ class LabelRun:
         failures.raise_all()
 
     def write_together(self, name: str, kind: str, progress: messages.Progress) -> None:
-        """Write all surfaces to one file."""
         if kind == "mesh":
             writing.write_surface(self.meshes[0], name, self.remark, self.mesher, self.console.warn,
                                   progress)
@@ -314,7 +305,6 @@ class LabelRun:
             writing.warn_obsolete(name, written, self.warn, suffix=suffix_in_folder(self.options))
 
     def report_text(self) -> str:
-        """Return the report as JSON."""
         mesh = self.meshes[0] if len(self.meshes) == 1 else vtkPolyData()
         return report.finish({
             "input": report.input_summary(self.options.volume, self.loaded),
@@ -327,7 +317,6 @@ class LabelRun:
 
     @property
     def writes_mesh(self) -> bool:
-        """Whether an output is a mesh of several labels."""
         return makes_mesh(self.options) and len(self.surfaces) > 1
 
     @property
@@ -337,17 +326,15 @@ class LabelRun:
 
     @property
     def unfinished(self) -> str:
-        """Stop reason of an unfinished run, default empty."""
-        reasons = [report.stop_reason(each.surface) for each in self.surfaces]
+        """Stop reason of an unfinished run, otherwise empty."""
+        reasons = [geometry.field_text(each.surface, "StopReason") for each in self.surfaces]
         return next((reason for reason in STOPPED if reason in reasons), "")
 
     @property
     def remark(self) -> str:
-        """Remark for file headers."""
         return f", UNFINISHED: {self.unfinished}" if self.unfinished else ""
 
     def print_summary(self) -> None:
-        """Print a summary of the run."""
         there = [each for each in self.surfaces if each.is_present]
         wrong = sum(each.count("WrongVoxels") for each in self.surfaces)
         vertices = sum(each.surface.GetNumberOfPoints() for each in there)

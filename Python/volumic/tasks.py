@@ -337,7 +337,6 @@ class Job:
         return os.path.join(self.folder, "job", *names)
 
     def _viewers(self) -> list[str]:
-        """Return the folders for Neuroglancer."""
         return [os.path.join(self.folder, name) for name in self.formats
                 if name in neuroglancer.INFO]
 

@@ -17,21 +17,10 @@ Make = Callable[[float, float], "tuple[int, float]"]
 
 
 def find_triangles(make: Make, target: int, unit: float, console: Console) -> None:
-    """Compute surfaces with about `target` triangles.
-
-    Search for a tolerance. If uniform edges yield too few triangles, or no tolerance yields so few,
-    search for an edge length. Raise Failure if the search fails.
-
-    Parameters
-    ----------
-    make : callable
-        make(edge length, tolerance), in world units, computes the surfaces and returns the number
-        of triangles and their area.
-    target : int
-    unit : float
-        Smallest voxel spacing in world units.
-    console : Console
-    """
+    """Compute surfaces with about `target` triangles. Search for a tolerance, or, if uniform edges
+    yield too few triangles or no tolerance yields so few, for an edge length. make(edge length,
+    tolerance) returns the number of triangles and their area, in world units; `unit` is the
+    smallest voxel spacing. Raise Failure if the search fails."""
     tried: list[int] = []
 
     def run(edge_length: float, tolerance: float) -> tuple[int, float]:

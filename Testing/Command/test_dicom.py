@@ -150,7 +150,7 @@ class SlicesTest(DicomTest):
         self.check(time=1, voxels=1000 - ball())
         self.refused("there is no time 2", time=2)
         said = self.run_command(self.path("a"), "--list-series").stdout
-        self.assertIn("36 slices of 26 x 22, 2 at each place (--time)", said)
+        self.assertIn("36 slices of 26 x 22, 2 at each position (--time)", said)
 
     def test_two_series_of_one_study(self):
         self.series(range(0, 18, 2))

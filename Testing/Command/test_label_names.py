@@ -277,7 +277,7 @@ class HeadersTest(NamesTest):
                          volume, self.path(name), "--labels", "1", *more)
         self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", 1)
         unnamed = self.nrrd(layers)
-        for reason, *options in (("2 components; choose the one that is a label with --component",),
+        for reason, *options in (("2 components; choose the label component with --component",),
                                  ("--component 2 is out of range", "--component", "2")):
             self.refused(reason, unnamed, self.path("o/"), "--labels", "all", *options)
 

@@ -100,7 +100,6 @@ def read(path, **choice):
 
 
 def _read(path, choice):
-    """Return the checked Volume."""
     reader = _reader_of(path, choice)
     if isinstance(reader, str):
         if choice.series is not None and not reader.startswith("dicom"):

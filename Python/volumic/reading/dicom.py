@@ -117,8 +117,8 @@ class _Series:
     def text(self):
         """Return a one-line description."""
         slices, data = list(self.slices.values()), self.data
-        places = collections.Counter(str(s.position) for s in slices if s.position is not None)
-        times = max(places.values(), default=1) if "SegmentSequence" not in data else 1
+        positions = collections.Counter(str(s.position) for s in slices if s.position is not None)
+        times = max(positions.values(), default=1) if "SegmentSequence" not in data else 1
         about = [data.get("SeriesDescription") or "unnamed", data.get("Modality"),
                  data.get("SeriesDate") or data.get("StudyDate")]
         return "%d: %s, %d slice%s of %d x %d%s, from %s" % (
@@ -182,13 +182,12 @@ def read_dicom(path, choice):
 def _is_similar(one, other):
     """Return whether two slices may belong to one volume; localizers do not."""
     return one.size == other.size and all((a is None) == (b is None) and (
-        a is None or np.abs(a - b).max() < most) for a, b, most in (
+        a is None or np.abs(a - b).max() < limit) for a, b, limit in (
             (one.spacing, other.spacing, 1e-3), (one.axes, other.axes, .04),
             (one.position, other.position, np.inf)))
 
 
 def _largest_group(slices, notes):
-    """Return the largest group of similar slices."""
     groups = []
     for each in slices:
         group = next((group for group in groups if _is_similar(each, group[0])), None)
@@ -238,15 +237,15 @@ def _volume(_, slices, choice, notes):
     slices = _largest_group(slices, notes)
     axes, positions, heights, spacing = _geometry(slices, notes)
     order = np.argsort(heights, kind="stable")
-    places = [sorted(place, key=lambda i: slices[i].order)
-              for place in np.split(order, np.flatnonzero(np.diff(heights[order]) > 1e-4) + 1)]
-    most = max(places, key=len)
-    if len(places) * len(most) != len(slices):
+    stacks = [sorted(stack, key=lambda i: slices[i].order)
+              for stack in np.split(order, np.flatnonzero(np.diff(heights[order]) > 1e-4) + 1)]
+    largest = max(stacks, key=len)
+    if len(stacks) * len(largest) != len(slices):
         raise VolumeError("%s and %s have the same position, but not all slices occur twice; move "
                           "files of other volumes to another folder"
-                          % (slices[most[1]].name, slices[most[0]].name))
-    time = one_of_times(len(most), choice)
-    order = [place[time] for place in places]
+                          % (slices[largest[1]].name, slices[largest[0]].name))
+    time = one_of_times(len(largest), choice)
+    order = [stack[time] for stack in stacks]
     positions, heights = positions[order], heights[order]
     values, least = values_of([slices[i] for i in order])
     gaps = np.diff(heights)

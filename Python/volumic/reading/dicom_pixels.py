@@ -47,17 +47,17 @@ def values_of(slices):
         kept = plane if s.padding is None else plane[plane != s.padding]
         if kept.size:
             ends += [s.slope * float(end) + s.shift for end in (kept.min(), kept.max())]
-    least, most = min(ends, default=0.), max(ends, default=0.)
+    minimum, maximum = min(ends, default=0.), max(ends, default=0.)
     factors, dtype = np.array([(s.slope, s.shift) for s in slices]), raw.dtype
     if (factors != (1, 0)).any():
-        fits = [t for t in ("i2", "u2", "i4") if np.iinfo(t).min <= least
-                and most <= np.iinfo(t).max]
+        fits = [t for t in ("i2", "u2", "i4") if np.iinfo(t).min <= minimum
+                and maximum <= np.iinfo(t).max]
         dtype = np.dtype("f4" if (factors % 1).any() else (fits + ["f8"])[0])
     result = raw.view(dtype) if dtype.itemsize == raw.itemsize else np.empty(raw.shape, dtype)
     for plane, new, s in zip(raw, result, slices):
         values = plane if (s.slope, s.shift) == (1, 0) else plane * s.slope + s.shift
-        new[...] = values if s.padding is None else np.where(plane == s.padding, least, values)
-    return result, least
+        new[...] = values if s.padding is None else np.where(plane == s.padding, minimum, values)
+    return result, minimum
 
 
 def pixels_of(slices):

@@ -44,23 +44,10 @@ def make_volume(array, steps, origin, space, unit, choice, **more):
 
 
 def on_regular_grid(array, positions, across, down, spacing, choice, why, outside=None):
-    """Resample slices at irregular positions to the regular grid that contains them.
-
-    Values are interpolated linearly, labels by nearest neighbour.
-
-    Parameters
-    ----------
-    positions : array_like, n x 3
-        Position of the first pixel of each slice.
-    across, down : ndarray
-        Unit vectors along rows and columns.
-    spacing : sequence of 2 floats
-        Pixel spacing along them.
-    why : str
-        Reason, for the warning.
-    outside : optional
-        Value where there is no slice (default: the minimum; 0 for labels).
-    """
+    """Resample slices to the regular grid that contains them, values linearly, labels by nearest
+    neighbour. `positions` are those of first pixels, `across` and `down` unit vectors along rows
+    and columns, `why` is the reason for the warning. `outside` is the value where there is no slice
+    (default: the minimum; 0 for labels)."""
     if not choice.resampling:
         raise VolumeError(why + "; without --no-resampling they are resampled")
     positions, pitch = np.asarray(positions, float), np.array(spacing, float)
@@ -153,20 +140,10 @@ def check_size(have, need, exact=False):
 
 
 def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, exact=False):
-    """Return `count` values of a file, memory-mapped unless compressed.
-
-    Parameters
-    ----------
-    offset : int
-        Position of the data in the file.
-    packing : {None, "gzip", "zlib", "bz2"}
-    skip : int
-        Bytes of uncompressed data before the values.
-    size : int, optional
-        Bytes of all uncompressed data (default: up to the last value).
-    exact : bool
-        Whether further bytes are an error.
-    """
+    """Return `count` values of a file, memory-mapped unless compressed ("gzip", "zlib", "bz2"). The
+    data start at byte `offset`, the values `skip` uncompressed bytes later. `size` is the number of
+    all uncompressed bytes (default: up to the last value). If `exact`, further bytes are an
+    error."""
     dtype, count = np.dtype(dtype), int(count)
     size = skip + count * dtype.itemsize if size is None else size
     if not packing:
@@ -222,7 +199,6 @@ class _Inflated(io.BufferedIOBase):
         return b""
 
     def readinto(self, buffer):
-        """Read into a buffer."""
         part = self.read(len(buffer))
         buffer[:len(part)] = part
         return len(part)

@@ -82,7 +82,6 @@ def _merged(masks, choice):
 
 
 def _has_same_grid(a, b):
-    """Return whether two volumes have the same grid."""
     if a.array.shape[-3:] != b.array.shape[-3:]:
         return False
     matrices = [np.column_stack([v.origin, v.direction * v.spacing]) for v in (a, b)]

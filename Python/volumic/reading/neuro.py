@@ -33,7 +33,6 @@ def log_of(name):
 
 
 def read_nifti(path, choice):
-    """Read NIfTI, Analyze or MGH."""
     import nibabel
     with log_of("nibabel.global") as lines:
         image = nibabel.load(path)

@@ -34,17 +34,8 @@ def _header_lines(path):
 
 
 def data_files(path, value, following, count):
-    """Return the data files that a header refers to.
-
-    Parameters
-    ----------
-    value : str
-        A file name, a pattern "%03d.raw FIRST LAST STEP", or LIST.
-    following : list of str
-        Lines after the field: the file names of LIST.
-    count : int
-        Number of files, if several.
-    """
+    """Return the data files in a header: a name, a pattern "%03d.raw FIRST LAST STEP", or LIST with
+    the names in the `following` lines. `count` is their number, if several."""
     folder, words = os.path.dirname(path), value.split()
     if not words:
         raise VolumeError("invalid header: the data file is missing")

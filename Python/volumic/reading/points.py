@@ -7,6 +7,9 @@ import os
 import re
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkCharArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ..errors import VolumeError
 from .volume import prefix_errors, require_file
@@ -40,7 +43,6 @@ def read_surface(path):
 
 def _vertices(path, columns):
     """Return the points of a text or mesh as vertices; with five columns also their arrays."""
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
     is_text = os.path.splitext(path)[1].lower() in (".txt", ".csv", ".xyz")
     with prefix_errors(path):
@@ -59,9 +61,6 @@ def _vertices(path, columns):
 
 def _text_points(path, columns):
     """Return points from lines of numbers separated by blanks or commas; # starts a comment."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
     rows, is_first = [], True
     with open(path, encoding="utf-8-sig", errors="replace") as lines:
         for number, line in enumerate(lines, 1):
@@ -95,8 +94,6 @@ def _text_points(path, columns):
 def _mesh(path):
     """Return the vtkPolyData of a file. VTK's readers run in a worker process, as they crash on
     damaged files."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkParallelCore import vtkCommunicator
     require_file(path)
     if not os.path.exists(path):
@@ -108,8 +105,6 @@ def _mesh(path):
 
 def load(path):
     """Return a validated mesh, serialized by VTK, in the worker."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkCharArray
     from vtkmodules.vtkIOLegacy import vtkPolyDataReader
     from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
     from vtkmodules.vtkIOPLY import vtkPLYReader

@@ -73,7 +73,6 @@ def names_beside(volume: str, outputs: Iterable[str] = ()) -> tuple[list[Label],
 
 
 def _is_report(file: str) -> bool:
-    """Return whether the file is a report of this program."""
     try:
         return "volumic" in json.loads(_text_of(file))["versions"]
     except (OSError, ValueError, RecursionError, LookupError, TypeError):

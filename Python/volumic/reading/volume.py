@@ -67,7 +67,7 @@ class Volume:
     unit: str = ""              # key of METERS; '' unknown
     labels: list = dataclasses.field(default_factory=list)
     warnings: list = dataclasses.field(default_factory=list)
-    components: str = ""        # kind: '', 'vector', 'color', or others of which one is chosen
+    components: str = ""        # kind: '', 'vector', 'color', or one that requires a choice
     times: int = 1
     resampling: str = ""        # description of the resampling; '' none
     name: str = ""              # of the array
@@ -84,13 +84,8 @@ class Volume:
                      self.unit, self.names))
 
     def scalars(self, component=None):
-        """Return the values [z, y, x] of a component.
-
-        Parameters
-        ----------
-        component : int, optional
-            -1: magnitude; None: magnitude of vectors and colours, otherwise an error.
-        """
+        """Return the values [z, y, x] of a component. -1 is the magnitude; None is the magnitude of
+        vectors and colours, and otherwise an error."""
         count = 1 if self.array.ndim == 3 else len(self.array)
         if component is not None and component >= count:
             raise VolumeError("component %d is out of range; the volume has %d components, 0 to %d"
@@ -165,7 +160,7 @@ def prefix_errors(path):
 def require_file(path):
     """Raise VolumeError for pipes and devices, on which reading would block."""
     if os.path.exists(path) and not (os.path.isfile(path) or os.path.isdir(path)):
-        raise VolumeError("%s: this is a pipe or a device; give a file" % path)
+        raise VolumeError("%s: a pipe or a device; give a regular file" % path)
 
 
 def failure_of(error):

@@ -19,7 +19,6 @@ _ADVICE = ", not an image; convert it, for example by ParaView's filter Resample
 
 
 def read_xml(path, choice):
-    """Read .vti, .pvti or .vtr."""
     file = XmlFile(path)
     if file.kind not in ("ImageData", "PImageData", "RectilinearGrid"):
         raise VolumeError("the file has %s%s" % (file.kind or "no VTK data", _ADVICE))
@@ -85,7 +84,6 @@ def _extent(element, key):
 
 
 def _piece(path, piece):
-    """Open a piece of a .pvti file."""
     name = piece.get("Source", "")
     with prefix_errors(name[:200]):
         file = XmlFile(os.path.join(os.path.dirname(path), name))
@@ -118,10 +116,10 @@ def _joined(parts, whole, shape):
     result, covered = np.empty((*shape, count), parts[0][1].dtype), np.zeros(shape, bool)
     for extent, values in parts:
         begin = (extent[::2] - whole[::2])[::-1]
-        place = tuple(slice(a, a + n) for a, n in zip(begin, values.shape))
-        if (begin < 0).any() or (*covered[place].shape, count) != values.shape:
+        region = tuple(slice(a, a + n) for a, n in zip(begin, values.shape))
+        if (begin < 0).any() or (*covered[region].shape, count) != values.shape:
             raise VolumeError("invalid header: a piece is outside the image")
-        result[place], covered[place] = values, True
+        result[region], covered[region] = values, True
     if not covered.all():
         raise VolumeError("the pieces do not cover the image")
     return result
@@ -159,7 +157,6 @@ def _volume(array, parent, steps, origin, fields, choice, name, whole):
 
 
 def read_by_vtk(path, choice):
-    """Read .vtk or .vtkhdf."""
     found = in_worker("volumic.reading.vtkfiles:load", path, choice.array)
     array, parent, steps, origin, fields, name, whole = found
     return _volume(array, parent, steps, origin, fields, choice, name, whole)

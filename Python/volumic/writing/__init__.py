@@ -30,7 +30,6 @@ _warned: set[str] = set()  # warnings given once
 
 
 def suffix_of(name: str) -> str:
-    """Return the suffix in lower case, with the dot."""
     return os.path.splitext(name)[1].lower()
 
 
@@ -42,7 +41,6 @@ def check_surface_name(name: str) -> None:
 
 
 def check_volume_name(name: str) -> None:
-    """Raise UsageError unless the suffix is .vti."""
     if suffix_of(name) != ".vti":
         raise UsageError(f"{name}: volumes are written as .vti; change the suffix")
 
@@ -124,7 +122,6 @@ def write_volume(image: Any, name: str, progress: Show = silent) -> None:
 
 
 def write_table(table: Any, name: str) -> None:
-    """Write a .csv file with column names."""
     _write(name, surfaces.csv(table))
 
 

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages import one_line
-from .regions import cell_array, find_regions, surface_labels
+from .regions import cell_array, find_regions, points_of, surface_labels
 
 SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")  # BoxFace 1 to 6
 OUTSIDE = 0
@@ -47,7 +47,6 @@ def abaqus_name(name: str) -> str:
 
 
 def gmsh_name(name: str) -> str:
-    """Return a valid name of a physical group."""
     return one_line(name, 50).replace('"', "'")
 
 
@@ -96,15 +95,9 @@ def rows(form: str, *columns: Any) -> str:
 
 
 def write_lines(path: str, *parts: str) -> None:
-    """Write text parts to a file."""
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         for part in parts:
             file.write(part)
-
-
-def _points_of(data: Any) -> np.ndarray:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    return vtk_to_numpy(data.GetPoints().GetData())
 
 
 def _digits(points: np.ndarray) -> str:
@@ -118,7 +111,7 @@ class _Boundaries:
     """Triangles of a surface in groups of equal adjacent regions and part (0, box face or cap)."""
 
     def __init__(self, surface: Any) -> None:
-        self.points = _points_of(surface)
+        self.points = points_of(surface)
         self.regions = find_regions(surface)
         labels = self.regions.labels
         numbers = np.array([label.number for label in labels] + [OUTSIDE])
@@ -139,7 +132,6 @@ class _Boundaries:
             [kind[2] for kind in self.marks if kind[2]], DistinctNames(" ", gmsh_name))
 
     def name(self, kind: tuple[int, int, int]) -> str:
-        """Return the name of the physical group of a kind."""
         return self.names.parts[kind[2]] if kind[2] else self.names.pairs[kind[:2]]
 
 

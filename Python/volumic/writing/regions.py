@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ..errors import Failure
 
@@ -58,9 +59,13 @@ def region_labels(surface: Any) -> list[SurfaceLabel]:
     return found
 
 
+def points_of(surface: Any) -> np.ndarray:
+    """Return the points, n x 3, in VTK's memory."""
+    return vtk_to_numpy(surface.GetPoints().GetData())
+
+
 def triangles_of(surface: Any) -> np.ndarray:
     """Return the triangles, m x 3. Raise Failure if there are none, or other polygons."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     polys = surface.GetPolys()
     count = polys.GetNumberOfCells()
     if count == 0:
@@ -72,7 +77,6 @@ def triangles_of(surface: Any) -> np.ndarray:
 
 def cell_array(surface: Any, name: str) -> np.ndarray | None:
     """Return the values of a cell array for the polygons, or None."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     array = surface.GetCellData().GetArray(name)
     before = surface.GetNumberOfVerts() + surface.GetNumberOfLines()
     return None if array is None else vtk_to_numpy(array)[before:]
@@ -165,8 +169,7 @@ def solid_angle(corners: np.ndarray, point: np.ndarray) -> float:
 def find_regions(surface: Any) -> Regions:
     """Return the regions of the output `Interfaces` of vtkLabelsToSurfaces, or of a closed surface.
     Raise Failure, without a file name, if the triangles do not separate regions."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    points = points_of(surface).astype(float)
     triangles, labels = triangles_of(surface), region_labels(surface)
     of_side = labels_of_sides(surface, len(triangles))
     shell = find_shells(points, triangles, of_side)

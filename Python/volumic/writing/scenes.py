@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from ..errors import Failure
-from .regions import SurfaceLabel, cell_array, surface_labels, triangles_of
-from .surfaces import Show, bytes_of, escaped, lines, numbers, packed, points_of, silent
+from .regions import SurfaceLabel, cell_array, points_of, surface_labels, triangles_of
+from .surfaces import Show, bytes_of, escaped, lines, numbers, packed, silent
 
 Objects = Sequence[tuple[str, Any]]  # names and non-empty surfaces
 

@@ -15,11 +15,12 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ..errors import Failure
 from ..messages import update
 from .meshers import DistinctNames, cap_names
-from .regions import cell_array, surface_labels, triangles_of
+from .regions import cell_array, points_of, surface_labels, triangles_of
 
 Show = Callable[[float], Any]         # progress, 0 to 1
 Pack = Callable[[np.ndarray], bytes]  # from rows
@@ -54,13 +55,7 @@ def lines(form: str) -> Pack:
 
 def numbers(array: Any) -> Any:
     """Return the values of a VTK array, or None."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
     return None if array is None else vtk_to_numpy(array)
-
-
-def points_of(surface: Any) -> np.ndarray:
-    """Return the points, n x 3."""
-    return numbers(surface.GetPoints().GetData())
 
 
 def bytes_of(color: Any) -> tuple[int, ...]:
@@ -174,7 +169,6 @@ def ply_faces(triangles: np.ndarray) -> bytes:
 
 
 def _ply_columns(surface: Any) -> dict[str, np.ndarray]:
-    """Return the vertex properties."""
     normals, colors = numbers(surface.GetPointData().GetNormals()), _vertex_colors(surface)
     columns = dict(zip("xyz", points_of(surface).T.astype("<f4")))
     if normals is not None:
@@ -226,7 +220,6 @@ def _text(writer: Any, data: Any, show: Show = silent, get: str = "GetOutputStri
 
 
 def write_pieces(path: str, pieces: Iterable[bytes]) -> None:
-    """Write a file."""
     with open(path, "wb") as file:
         file.writelines(pieces)
 

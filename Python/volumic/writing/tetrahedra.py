@@ -16,10 +16,11 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 from ..errors import Failure
 from .meshers import write_msh, write_tetgen
-from .regions import cell_array, labels_of_sides, region_labels, triangles_of
+from .regions import cell_array, labels_of_sides, points_of, region_labels, triangles_of
 from .tetrahedral_files import TETRAHEDRAL_SUFFIXES
 
 MESHERS = ("tetgen", "gmsh")
@@ -81,20 +82,9 @@ class TetrahedralMesh:
 
 class TetrahedralMesher:
     """Fills surfaces with tetrahedra. Keeps the last mesh for further files of the same surface.
-
-    Parameters
-    ----------
-    mesher : str
-        `tetgen` or `gmsh`; empty: the first one installed.
-    maximum_volume : float
-        Maximum volume of a tetrahedron in cubic world units; 0: no limit.
-    interrupted : callable, optional
-        Returns whether to stop the program.
-    deadline : float, optional
-        Value of time.monotonic() at which to stop the program.
-    probe : callable, optional
-        probe(points) returns arrays of values by name, added to points and cells.
-    """
+    `maximum_volume` is in cubic world units (0: no limit). The program is stopped if interrupted()
+    is true or time.monotonic() exceeds `deadline`. probe(points) returns arrays by name, which are
+    added to points and cells."""
 
     def __init__(self, mesher: str = "", maximum_volume: float = 0.0,
                  interrupted: Callable[[], bool] | None = None, deadline: float | None = None,
@@ -134,10 +124,9 @@ class TetrahedralMesher:
 
     def _check_size(self, surface: Any) -> None:
         """Raise Failure if the maximum volume implies too many tetrahedra."""
-        from vtkmodules.util.numpy_support import vtk_to_numpy
         if self.maximum_volume <= 0:
             return
-        points, triangles = vtk_to_numpy(surface.GetPoints().GetData()), triangles_of(surface)
+        points, triangles = points_of(surface), triangles_of(surface)
         a, b, c = np.moveaxis(points[triangles] - points.mean(axis=0), 1, 0)
         filled = (labels_of_sides(surface, len(triangles)) >= 0).reshape(-1, 2)
         signs = filled[:, 0].astype(int) - filled[:, 1]
@@ -148,7 +137,6 @@ class TetrahedralMesher:
                           f"{volume / MAXIMUM_TETRAHEDRA:.1g}")
 
     def _command_line(self, program: str, folder: str) -> list[str]:
-        """Return the command line of a program."""
         limit = self.maximum_volume
         if program == "tetgen":
             # p: mesh a surface, Y: preserve it, A: region attributes, q/8: dihedral angles of at
@@ -197,7 +185,6 @@ class TetrahedralMesher:
         points between it and the corners; for labels the value at the centroid."""
         if self.probe is None:
             return
-        from vtkmodules.util.numpy_support import numpy_to_vtk
         corners = mesh.points[mesh.cells]
         center = corners.mean(axis=1)
         mesh.point_values = self.probe(mesh.points)
@@ -243,7 +230,6 @@ def _numbers(text: str, keyword: str, columns: int) -> np.ndarray:
 def _read_mesh(path: str, surface: Any, mesher: str) -> TetrahedralMesh:
     """Read a Medit file. Points of the surface come first, with their exact coordinates."""
     from scipy.spatial import cKDTree
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
     text = ""
@@ -253,7 +239,7 @@ def _read_mesh(path: str, surface: Any, mesher: str) -> TetrahedralMesh:
     nodes, rows = _numbers(text, "Vertices", 4)[:, :3], _numbers(text, "Tetrahedra", 5).astype(int)
     if len(rows) == 0:
         raise Failure("the mesher created no tetrahedra")
-    own = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    own = points_of(surface).astype(float)
     far, near = cKDTree(own).query(nodes)
     added = far > 1e-12 * np.abs(own).max()  # files have at least 14 digits
     near[added] = len(own) + np.arange(added.sum())
@@ -290,15 +276,15 @@ def _measure(mesh: TetrahedralMesh) -> None:
     angles, six = [], []
     for first in range(0, len(mesh.cells), CHUNK):
         p = mesh.points[mesh.cells[first:first + CHUNK]]
-        most = np.full(len(p), -1.0)  # cosine
+        maximum = np.full(len(p), -1.0)  # cosine
         for i, j, a, b in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 0, 2),
                            (2, 3, 0, 1)):
             # The faces at edge a b have the other corners i and j.
             edge = p[:, b] - p[:, a]
             m, n = (np.cross(edge, p[:, end] - p[:, a]) for end in (i, j))
             cosine = (m * n).sum(1) / np.sqrt((m * m).sum(1) * (n * n).sum(1))
-            most = np.fmax(most, cosine)
-        angles.append(np.degrees(np.arccos(np.clip(most, -1, 1))))
+            maximum = np.fmax(maximum, cosine)
+        angles.append(np.degrees(np.arccos(np.clip(maximum, -1, 1))))
         six.append(((p[:, 1] - p[:, 0]) * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 0])).sum(1))
     all_angles, volumes = np.sort(np.concatenate(angles)), np.concatenate(six) / 6
     mesh.least_angle = float(all_angles[0])

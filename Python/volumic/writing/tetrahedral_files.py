@@ -70,15 +70,16 @@ def faces_of(mesh: Any) -> Faces:
     same[order] = np.cumsum(new) - 1
     labels = np.repeat(mesh.labels, 4)
     of_face = same[:4 * count]
-    least, most = np.full(same.max() + 1, np.iinfo(int).max), np.zeros(same.max() + 1, int)
-    np.minimum.at(least, of_face, labels)
-    np.maximum.at(most, of_face, labels)
-    uses = np.bincount(of_face, minlength=len(least))
-    marks = np.zeros((len(least), 2), int)
+    minimum, maximum = np.full(same.max() + 1, np.iinfo(int).max), np.zeros(same.max() + 1, int)
+    np.minimum.at(minimum, of_face, labels)
+    np.maximum.at(maximum, of_face, labels)
+    uses = np.bincount(of_face, minlength=len(minimum))
+    marks = np.zeros((len(minimum), 2), int)
     marks[same[4 * count:]] = mesh.marks
-    chosen = ((uses[of_face] == 1) | (least[of_face] < most[of_face])) & (labels == least[of_face])
+    chosen = (uses[of_face] == 1) | (minimum[of_face] < maximum[of_face])
+    chosen &= labels == minimum[of_face]
     found = np.flatnonzero(chosen)
-    second = np.where(uses == 1, OUTSIDE, most)[of_face[found]]
+    second = np.where(uses == 1, OUTSIDE, maximum)[of_face[found]]
     sort = np.lexsort((found, second, labels[found]))
     found, second = found[sort], second[sort]
     return Faces(found // 4, found % 4, corners[found], labels[found], second,
@@ -115,13 +116,13 @@ def write_tetrahedra_msh(mesh: Any, path: str, remark: str = "") -> None:
     triangles, cells, labels = faces.corners[order] + 1, mesh.cells + 1, mesh.labels
     numbers = np.arange(1, len(triangles) + len(cells) + 1)
     write_lines(path, f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Comments\n{remark}\n$EndComments\n"
-           f"$PhysicalNames\n{len(groups)}\n", *groups,
+                f"$PhysicalNames\n{len(groups)}\n", *groups,
                 f"$EndPhysicalNames\n$Nodes\n{len(mesh.points)}\n",
                 rows("%d %r %r %r", np.arange(1, len(mesh.points) + 1), mesh.points),
-           f"$EndNodes\n$Elements\n{len(numbers)}\n",
-           rows("%d 2 2 %d %d %d %d %d", numbers[:len(triangles)], marks, marks, triangles),
-           rows("%d 4 2 %d %d %d %d %d %d", numbers[len(triangles):], labels, labels, cells),
-           "$EndElements\n")
+                f"$EndNodes\n$Elements\n{len(numbers)}\n",
+                rows("%d 2 2 %d %d %d %d %d", numbers[:len(triangles)], marks, marks, triangles),
+                rows("%d 4 2 %d %d %d %d %d %d", numbers[len(triangles):], labels, labels, cells),
+                "$EndElements\n")
 
 
 def _set(head: str, numbers: np.ndarray) -> str:
@@ -183,13 +184,9 @@ def write_vtu(mesh: Any, path: str, _remark: str = "") -> None:
 # ---- Formats of meshio -------------------------------------------------------------------------
 
 def write_by_meshio(tetrahedra: Any, path: str, _remark: str = "") -> None:
-    """Write tetrahedra, and the faces between labels, by meshio.
-
-    - .med: named groups.
-    - .exo: named blocks and node sets.
-    - .bdf and .mesh: numbers; those of faces are above those of labels.
-    - .xdmf: cell data, and tetrahedra only, as FEniCS reads a single cell type.
-    """
+    """Write tetrahedra and the faces between labels by meshio: .med has named groups, .exo named
+    blocks and node sets, .bdf and .mesh numbers, where those of faces are above those of labels.
+    .xdmf has cell data and only tetrahedra, as FEniCS reads a single cell type."""
     points, cells = tetrahedra.points, tetrahedra.cells
     form, faces = MESHIO_FORMATS[os.path.splitext(path)[1].lower()], faces_of(tetrahedra)
     names, sets = named_sets(faces, tetrahedra.names, DistinctNames("_", str))
