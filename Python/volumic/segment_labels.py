@@ -227,7 +227,8 @@ class LabelRun:
             for label in (label for each in own for label in each.labels):
                 self.filter.AddLabel(label.label)
             with prefix_failures(self.options.volume):
-                run = messages.run(self.filter, "Making surfaces", self.console, with_option_names)
+                run = messages.run(self.filter, "Computing surfaces", self.console,
+                                   with_option_names)
             self.seconds += run.seconds
             blocks = self.filter.GetOutputDataObject(0)
             missed = with_option_names(geometry.field_text(blocks, "LostLabels"))

@@ -317,7 +317,7 @@ class RunTest(LabelsTest):
 
     def test_interrupt_keeps_what_is_there(self):
         rest = self.interrupted(
-            r"Making surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
+            r"Computing surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
             "all", "--threads", "1", "--finest", "-1", "--report", self.path("r.json"))
         self.assertIn("unfinished (cancelled): the current surfaces were written", rest)
         report = json.loads(self.content("r.json"))
