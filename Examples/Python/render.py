@@ -238,7 +238,6 @@ def compose(rows, captions=None, title=None, headings=None, gap=10):
 
 
 def blank(height, width):
-    """Return pixels in the background colour."""
     return np.full((height, width, 3), np.round(np.array(BACKGROUND) * 255), np.uint8)
 
 
@@ -269,7 +268,6 @@ def text_picture(text, size, color, bold):
 
 
 def image_of(pixels):
-    """Return the vtkImageData of a picture."""
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
     image.GetPointData().SetScalars(numpy_to_vtk(pixels[::-1].reshape(-1, 3), deep=True))

@@ -68,8 +68,7 @@ class Surface:
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a .vtp or .vtk (all arrays), .ply (points, normals, triangles), .stl or .obj file.
-        An existing file is replaced once the new one is complete. Raise ValueError if the suffix is
-        unknown."""
+        It replaces an existing file once complete. Raise ValueError if the suffix is unknown."""
         replace_file(path, self.to_bytes(os.path.splitext(path)[1].lower()))
 
     def to_bytes(self, suffix: str) -> bytes:
@@ -226,8 +225,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
 
 
 def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[int]]:
-    """Return [voxels, first x, last x, first y, last y, first z, last z] by label, see
-    vtkLabelTable."""
+    """Return [voxels, first x, last x, first y, ..., last z] by label, see vtkLabelTable."""
     table = filters.vtkLabelTable()
     table.SetInputData(_input(array, None, None, None, start))
     _run(table)
@@ -273,8 +271,7 @@ def _set(algorithm: Any, properties: dict[str, Any]) -> None:
 
 def make_image(array: Any, spacing: Sequence[float], origin: Sequence[float], direction: Any,
                start: Sequence[int] = (0, 0, 0), name: str = "Voxels") -> Any:
-    """Return a vtkImageData of an array [z, y, x] or [z, y, x, component]. Contiguous arrays are
-    not copied."""
+    """Return a vtkImageData of [z, y, x] or [z, y, x, component], without a copy if contiguous."""
     voxels = np.asarray(array)
     if voxels.dtype.kind not in "biuf":
         raise ValueError(f"voxels of type {voxels.dtype} are not supported; convert them to "

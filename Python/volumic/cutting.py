@@ -286,8 +286,8 @@ class Cutter:
 
     def _merge(self, removed: np.ndarray, kept: np.ndarray, triangles: np.ndarray, flags: np.ndarray
                ) -> np.ndarray:
-        """Merge vertices `removed` into `kept` unless triangles flip or degenerate. Return which
-        pairs are rejected."""
+        """Merge vertices into `kept` unless triangles flip or degenerate; return which are
+        rejected."""
         equal = (flags[removed] == flags[kept])[:, None]
         positions = np.where(equal, (self.points[removed] + self.points[kept]) / 2,
                              self.points[kept])

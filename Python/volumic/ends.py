@@ -68,8 +68,7 @@ def with_ends(surface: Any, image: Any, ends: str, warnings: list[str]) -> Any:
 
 
 def _number_components(triangles: np.ndarray, kinds: np.ndarray) -> np.ndarray:
-    """Number the connected components of triangles of equal kind from 1, ordered by kind; 0 where
-    the kind is 0."""
+    """Number connected triangles of equal kind from 1, ordered by kind; 0 for kind 0."""
     chosen, numbers = np.flatnonzero(kinds), np.zeros(len(triangles), np.int32)
     if len(chosen):
         edges = np.sort(edges_of(triangles[chosen]), axis=1)

@@ -49,8 +49,7 @@ def field_text(data: Any, name: str) -> str:
 
 
 def mark_space(data: Any, world: World) -> None:
-    """Set the field data `SPACE` (as read by 3D Slicer) and `LengthUnit` of a surface or of all
-    blocks."""
+    """Set the field data `SPACE`, read by 3D Slicer, and `LengthUnit` of a surface or blocks."""
     if data.IsA("vtkMultiBlockDataSet"):
         for block in filter(None, map(data.GetBlock, range(data.GetNumberOfBlocks()))):
             mark_space(block, world)
@@ -71,8 +70,7 @@ class World:
     file_unit: str = ""
 
     def text(self) -> str:
-        """Return a text such as "; space RAS, unit mm (of the file: um)"; empty if all is
-        unknown."""
+        """Return text such as "; space RAS, unit mm (of the file: um)"; empty if all is unknown."""
         parts = [(f"{what} {now}" if now else "")
                  + (f" (of the file: {file})" if file not in ("", now) else "")
                  for what, now, file in (("space", self.space, self.file_space),
@@ -130,8 +128,7 @@ class LoadedVolume:
 
 
 def image_of(volume: Volume, array: np.ndarray) -> Any:
-    """Return a vtkImageData of an array [z, y, x] or [component, z, y, x] with the geometry of
-    `volume`."""
+    """Return a vtkImageData of an array [z, y, x] or [component, z, y, x], located as `volume`."""
     image = make_image(array if array.ndim == 3 else np.moveaxis(array, 0, -1), volume.spacing,
                        volume.origin, volume.direction, volume.start, volume.name or "Voxels")
     for name, text in (("Axes", volume.space), ("LengthUnit", volume.unit),
@@ -206,8 +203,7 @@ def crop(volume: Volume, options: Namespace) -> None:
 
 def resample(volume: Volume, options: Namespace, console: Console) -> None:
     """Resample a volume in place to --resample, --isotropic or, for a surface, at least 8 voxels
-    along each axis. Interpolation is linear, for labels nearest neighbour. The bounds of the voxels
-    do not change."""
+    along each axis, linearly or, for labels, by nearest neighbour. Its bounds do not change."""
     from vtkmodules.vtkImagingCore import vtkImageReslice
     before, sizes = np.array(volume.spacing), np.array(volume.array.shape[:-4:-1])
     after = np.array(options.resample or before, float)

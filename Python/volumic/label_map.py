@@ -151,8 +151,7 @@ def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespa
 
 
 def safe_name(name: str) -> str:
-    """Return a name reduced to characters that are valid in file names on all systems, at most 120
-    bytes."""
+    """Return a name reduced to 120 bytes of characters that are valid in all file systems."""
     name = re.sub(r"""[\x00- \x7f/\\:*?"<>|'`$&;!%]""", "_", name).lstrip("._-~ ").rstrip("._ ")
     is_device = re.fullmatch("con|prn|aux|nul|(com|lpt)[1-3]", name.lower())
     return name.encode()[:120].decode(errors="ignore") + ("_" if is_device else "")

@@ -39,9 +39,8 @@ def _interrupt(number: int, _frame: Any) -> None:
 
 
 def catch_signals() -> None:
-    """Handle SIGINT and SIGTERM. The first signal raises KeyboardInterrupt, or, after
-    defer_signals(), sets was_interrupted(). A signal more than SAME_SIGNAL seconds later ends the
-    process."""
+    """Handle SIGINT and SIGTERM. The first one raises KeyboardInterrupt, or, after defer_signals(),
+    sets was_interrupted(). Another one more than SAME_SIGNAL seconds later ends the process."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
 
@@ -64,8 +63,7 @@ def number_text(value: float) -> str:
 
 
 def one_line(text: str, maximum: int = 1500) -> str:
-    """Return a text without line ends and control characters, shortened in the middle to `maximum`
-    characters."""
+    """Return a text as one printable line, shortened in the middle to `maximum` characters."""
     text = " ".join("".join(c if c.isprintable() else " " for c in text).split())
     return text if len(text) <= maximum else f"{text[:maximum // 2]} ... {text[-maximum // 2:]}"
 

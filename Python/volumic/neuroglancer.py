@@ -27,8 +27,7 @@ INFO = {"precomputed": {"@type": "neuroglancer_legacy_mesh"},
 
 
 def precomputed(surface: Surface, nanometers: float = 1.0) -> bytes:
-    """Return a fragment of a legacy single-resolution mesh. `nanometers` is the length of a world
-    unit."""
+    """Return a fragment of a legacy mesh. `nanometers` is the length of a world unit."""
     return (np.array([len(surface.points)], "<u4").tobytes()
             + (np.asarray(surface.points, float) * nanometers).astype("<f4").tobytes()
             + surface.triangles.astype("<u4").tobytes())

@@ -159,8 +159,7 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,
 
 
 def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[str]) -> None:
-    """Set spacing, origin and unit. `units` are those of x, y and z; lengths are converted to that
-    of x."""
+    """Set spacing, origin and unit, that of x. `units` are those of x, y and z."""
     count = len(volume.indices)
     scale, translation = np.ones(count), np.zeros(count)
     for step in [s for source in sources for s in source.get("coordinateTransformations", [])]:

@@ -91,8 +91,7 @@ SURFACE, PYRAMID, LABELS = "vtkDeformableSurface", "vtkImagePyramid", "vtkLabels
 
 class Property(NamedTuple):
     """An option that sets a property of a filter. With an empty metavar it takes no argument and
-    sets the property to `value`. A metavar such as `a|b` lists the values of an enumeration in
-    order."""
+    sets the property to `value`. A metavar such as `a|b` lists the values of an enumeration."""
     option: str
     metavar: str
     name: str
@@ -154,21 +153,20 @@ PROPERTIES = (
              "threshold, printed)"),
     Property("upper", "VALUE", "UpperValue", "the object is where image values are between --iso "
              "and this value"),
-    Property("dark", "", "ObjectIsBright", "the object is where image values are below --iso; "
-             "with --upper: not between --iso and --upper", value=False),
-    Property("component", "N", "SelectedComponent", "component of multi-component voxels, "
-             "counted from 0; -1: magnitude"),
+    Property("dark", "", "ObjectIsBright", "the object is where image values are below --iso; with "
+             "--upper: not between --iso and --upper", value=False),
+    Property("component", "N", "SelectedComponent", "component of multi-component voxels, counted "
+             "from 0; -1: magnitude"),
     Property("refuse-nan", "", "NaNIsBackground", "fail if voxels are NaN; without this option, "
              "they are background", value=False),
     Property("levels", "N", "NumberOfLevels", "number of pyramid levels, including the image; 0: "
              "as many as --minimum-level-size allows", PYRAMID),
-    Property("reduction-factor", "T", "ReductionFactor", "reduction factor between two "
-             "consecutive pyramid levels along each axis, 1 < T < 2", PYRAMID),
-    Property("minimum-level-size", "N", "MinimumLevelSize", "minimum number of voxels of a "
-             "level along its smallest axis; ignored with --levels", PYRAMID),
+    Property("reduction-factor", "T", "ReductionFactor", "reduction factor between two consecutive "
+             "pyramid levels along each axis, 1 < T < 2", PYRAMID),
+    Property("minimum-level-size", "N", "MinimumLevelSize", "minimum number of voxels of a level "
+             "along its smallest axis; ignored with --levels", PYRAMID),
     Property("coarsest", "LEVEL", "CoarsestLevel", "first level; -1: the coarsest"),
-    Property("finest", "LEVEL", "FinestLevel", "last level; 0: the image; -1: one level finer than "
-             "the image"),
+    Property("finest", "LEVEL", "FinestLevel", "last level; 0: the image; -1: one level finer"),
     Property("preview", "", "Preview", "stop at the finest level of at most a million voxels, to "
              "test a value of --iso", value=True),
     Property("initialization", "icosahedron|seeds|iso-surface|input-surface", "Initialization",
@@ -178,18 +176,17 @@ PROPERTIES = (
              "times the minimum edge length of the coarsest level"),
     Property("recovery", "none|objects|objects-and-cavities", "Recovery", "which features missed "
              "by coarser levels to recover"),
-    Property("minimum-part-size", "N", "MinimumPartSize", "minimum number of voxels of a recovered "
-             "part"),
+    Property("minimum-part-size", "N", "MinimumPartSize", "minimum voxels per recovered part"),
     Property("border", "background|replicate", "BorderValue", "values outside the image: "
              "background (surfaces close at the border) or value of the nearest voxel"),
-    Property("metric", "voxels|world", "Metric", "units in which edge lengths are uniform: "
-             "voxels or world units; they differ for anisotropic voxels"),
-    Property("edge-length", "LENGTH", "EdgeLength", "mean edge length in world units; 0: one "
-             "voxel of the finest level"),
+    Property("metric", "voxels|world", "Metric", "units in which edge lengths are uniform: voxels "
+             "or world units; they differ for anisotropic voxels"),
+    Property("edge-length", "LENGTH", "EdgeLength", "mean edge length in world units; 0: one voxel "
+             "of the finest level"),
     Property("tolerance", "LENGTH", "Tolerance", "coarsen the mesh where it stays within this "
              "distance of the isosurface, in world units; 0: uniform edges"),
-    Property("maximum-edge-length", "LENGTH", "MaximumEdgeLength", "with --tolerance: maximum "
-             "edge length in world units, at most 5 times the uniform length; 0: automatic"),
+    Property("maximum-edge-length", "LENGTH", "MaximumEdgeLength", "with --tolerance: maximum edge "
+             "length in world units, at most 5 times the uniform length; 0: automatic"),
     Property("gradation", "SLOPE", "Gradation", "with --tolerance or --thin-parts: maximum growth "
              "of the edge length per length along the surface, at most 0.3"),
     Property("thin-parts", "", "ThinParts", "refine the mesh where the object or a gap is thinner "
@@ -199,14 +196,13 @@ PROPERTIES = (
     Property("tension", "WEIGHT", "TensionWeight", "weight of the force towards the barycentre of "
              "the neighbouring vertices"),
     Property("elasticity", "WEIGHT", "ElasticityWeight", "weight of the spring forces along edges"),
-    Property("isopotential", "WEIGHT", "IsopotentialWeight", "weight of the force along the "
-             "normal towards the isosurface"),
-    Property("gradient", "WEIGHT", "GradientWeight", "weight of the force along the "
-             "image gradient"),
+    Property("isopotential", "WEIGHT", "IsopotentialWeight", "weight of the force along the normal "
+             "towards the isosurface"),
+    Property("gradient", "WEIGHT", "GradientWeight", "weight of the image gradient force"),
     Property("point-attraction", "WEIGHT", "PointAttractionWeight", "weight of "
              "--attracting-points; 0: no attraction"),
-    Property("edge-attraction", "WEIGHT", "EdgeAttractionWeight", "weight of the edge map "
-             "--edges; 0: no attraction; above --isopotential, edges stop the surface"),
+    Property("edge-attraction", "WEIGHT", "EdgeAttractionWeight", "weight of the edge map --edges; "
+             "0: no attraction; above --isopotential, edges stop the surface"),
     Property("friction", "VALUE", "Friction", "friction coefficient, greater than 0"),
     Property("no-topology-changes", "", "TopologyChanges", "disable merges and cuts: the surface "
              "stops at contacts", value=False),
@@ -216,8 +212,8 @@ PROPERTIES = (
              "relative change of the enclosed volume is less than this value"),
     Property("no-freeze", "", "FreezeMotionlessVertices", "also update converged vertices (slower)",
              value=False),
-    Property("no-snap", "", "SnapToIsoValue", "do not move vertices onto the isosurface at the "
-             "end of a level", value=False),
+    Property("no-snap", "", "SnapToIsoValue", "do not move vertices onto the isosurface at the end "
+             "of a level", value=False),
     Property("keep", "all|largest|at-points|large|not-at-seeds", "KeepComponents", "components to "
              "write: all; the largest by area; those at seeds or attracting points; those of at "
              "least --minimum-component-volume; all but those at seeds"),
@@ -237,21 +233,20 @@ PROPERTIES = (
              LABELS, value=True),
     Property("smoothing", "VOXELS", "Smoothing", "with --labels: smoothing distance in units of "
              "the smallest voxel spacing, at most 10; 0: none", LABELS),
-    Property("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: maximum distance "
-             "of a misclassified voxel centre from the surface, in units of the smallest voxel "
-             "spacing, at most 1; 0: no misclassified voxels; -1: a quarter of --smoothing, at "
-             "most 1", LABELS),
-    Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels: shape at the "
-             "border of the volume: rounded; flat, in the planes of its faces; or periodic, flat "
-             "with equal triangles on opposite faces", LABELS),
-    Property("shared-interfaces", "", "SharedInterfaces", "deprecated, no effect: adjacent "
-             "labels always share their interface", LABELS, value=True),
+    Property("voxel-tolerance", "VOXELS", "VoxelTolerance", "with --labels: maximum distance of a "
+             "misclassified voxel centre from the surface, in units of the smallest voxel spacing, "
+             "at most 1; 0: no misclassified voxels; -1: a quarter of --smoothing, at most 1",
+             LABELS),
+    Property("box-faces", "rounded|flat|periodic", "BoxFaces", "with --labels: shape at the border "
+             "of the volume: rounded; flat, in the planes of its faces; or periodic, flat with "
+             "equal triangles on opposite faces", LABELS),
+    Property("shared-interfaces", "", "SharedInterfaces", "deprecated, no effect: adjacent labels "
+             "always share their interface", LABELS, value=True),
 )
 
 
 def applies_to_labels(item: Property) -> bool:
-    """Return whether a property applies to label maps. The command selects the component of a label
-    map itself."""
+    """Return whether a property applies to label maps, or selects their component."""
     return item.cls == LABELS or item.name in (*SHARED_WITH_LABELS, "SelectedComponent")
 
 
@@ -270,11 +265,11 @@ INPUT = (
     Option("array", "NAME", "array of the volume to read (default: the active scalars)"),
     Option("spacing", "X,Y,Z", "voxel spacing that replaces that of the file, in its unit",
            numbers(3, positive)),
-    Option("region", "I0,I1,J0,J1,K0,K1", "crop the volume to these voxels: first "
-           "and last index along each axis, as in --list-labels; surfaces close at the border of "
-           "the region", box(integer)),
-    Option("region-box", "X0,X1,Y0,Y1,Z0,Z1",
-           "crop the volume to the voxels that intersect a box in world coordinates", box(number)),
+    Option("region", "I0,I1,J0,J1,K0,K1", "crop the volume to these voxels: first and last index "
+           "along each axis, as in --list-labels; surfaces close at the border of the region",
+           box(integer)),
+    Option("region-box", "X0,X1,Y0,Y1,Z0,Z1", "crop the volume to the voxels that intersect a box "
+           "in world coordinates", box(number)),
     Option("resample", "X,Y,Z", "resample the volume to this voxel spacing: linear interpolation, "
            "for label maps nearest neighbour", numbers(3, positive)),
     Option("isotropic", "", "resample the volume to the smallest of its three spacings"),
@@ -283,13 +278,13 @@ INPUT = (
     Option("unit", "m|mm|um", "unit of length of all outputs and options (also cm, nm, A); "
            "requires a file that states its unit", unit),
     Option("space", "LPS|RAS|as-file", "coordinate system of all outputs: left, posterior, "
-           "superior (DICOM) or right, anterior, superior (NIfTI); requires a file that states "
-           "its coordinate system", one_of("LPS", "RAS", "as-file")),
+           "superior (DICOM) or right, anterior, superior (NIfTI); requires a file that states its "
+           "coordinate system", one_of("LPS", "RAS", "as-file")),
     Option("series", "N|UID", "DICOM series to read: its number in --list-series or its UID"),
     Option("list-series", "", "print the DICOM series of the volume: number, description, "
            "modality, date, slices, UID"),
-    Option("time", "N", "volume to read from a file with several volumes (times, phases, "
-           "masks), counted from 0", at_least(0)),
+    Option("time", "N", "volume to read from a file with several volumes (times, phases, masks), "
+           "counted from 0", at_least(0)),
     Option("phase", "N", "synonym of --time", at_least(0)),
     Option("raw", "X,Y,Z,TYPE[,big]", "read a file without header: dimensions and voxel type, such "
            "as 512,512,400,uint16; x varies fastest, little-endian by default"),
@@ -297,8 +292,8 @@ INPUT = (
            "instead of resampling them"),
     Option("seeds", "FILE", "seed points in world coordinates, where initial surfaces are placed: "
            "points of a mesh file, or lines 'x y z' of a .txt, .csv or .xyz file"),
-    Option("seed-position", "X,Y,Z", "seed point in world coordinates; may be "
-           "repeated", numbers(3), True),
+    Option("seed-position", "X,Y,Z", "seed point in world coordinates; may be repeated",
+           numbers(3), True),
     Option("initial-surface", "FILE", "closed initial surface in world coordinates: .vtp, .vtk, "
            ".stl, .ply or .obj"),
     Option("attracting-points", "FILE", "points in world coordinates that belong to the object: "
@@ -309,26 +304,23 @@ INPUT = (
     Option("edges", "NAME|FILE", "edge map, with large values on edges: array of the volume, or "
            "volume of equal dimensions; default of --edge-attraction: 2"),
     Option("ends", "closed|marked|open", "shape where the object leaves the volume: closed by a "
-           "rounded cap (default); marked: cut by a plane and closed by flat caps, numbered in "
-           "the cell array Cap; open: cut and left open", one_of("closed", "marked", "open")),
-    Option("triangles", "N", "target number of triangles (within 10 %): search for the "
-           "--tolerance or --edge-length that yields it", at_least(20)),
+           "rounded cap (default); marked: cut by a plane and closed by flat caps, numbered in the "
+           "cell array Cap; open: cut and left open", one_of("closed", "marked", "open")),
+    Option("triangles", "N", "target number of triangles (within 10 %): search for the --tolerance "
+           "or --edge-length that yields it", at_least(20)),
     Option("probe", "FILE", "sample this volume at the vertices, as a point array with the name of "
            "the file; its grid, coordinate system and unit may differ; may be repeated", str, True),
     Option("probe-depth", "LENGTH", "with --probe: average values from the surface to this depth "
            "inside, in world units", at_least(0, number)),
-    Option("labels", "all|LIST", "read the volume as a label map and compute a surface for "
-           "each of these labels: numbers, ranges and names, such as 1,7-9,liver,lung_*",
-           str, True),
+    Option("labels", "all|LIST", "read the volume as a label map and compute a surface for each of "
+           "these labels: numbers, ranges and names, such as 1,7-9,liver,lung_*", str, True),
     Option("list-labels", "", "print the labels of the volume, or those of --labels: value, "
            "voxels, volume, extent, name; with --report also as JSON"),
-    Option("label-names", "FILE", "names and colours of labels: JSON, ITK-SNAP label "
-           "descriptions, colour table or .csv (default: those in the volume, or in a file next "
-           "to it)"),
+    Option("label-names", "FILE", "names and colours of labels: JSON, ITK-SNAP label descriptions, "
+           "colour table or .csv (default: those in the volume, or in a file next to it)"),
 )
 OUTPUT = (
-    Option("format", "SUFFIX", "with --labels and a folder: suffix of its files, such as stl "
-           "(default: vtp)"),
+    Option("format", "SUFFIX", "with --labels: suffix of files in a folder (default: vtp)"),
     Option("history", "FILE.csv", "write the history, one row per iteration"),
     Option("levels-output", "FILE.vtm|DIR", "write the surface of each level: as blocks, or as "
            "level-0.vtp, level-1.vtp, ... in a folder"),
@@ -336,16 +328,15 @@ OUTPUT = (
            "(default: 10): as blocks, or as snapshot-0.vtp, ... in a folder"),
     Option("report", "FILE.json", "write measurements as JSON: components, genus, area, volume, "
            "seconds, ...; -: standard output"),
-    Option("write-volume", "FILE.vti", "write the input volume, cropped and "
-           "resampled as requested"),
+    Option("write-volume", "FILE.vti", "write the input volume, cropped and resampled as "
+           "requested"),
     Option("mesher", "tetgen|gmsh", "program that generates tetrahedral meshes; with this option "
-           "also for .msh (default: the first one installed)",
-           one_of("tetgen", "gmsh")),
+           "also for .msh (default: the first one installed)", one_of("tetgen", "gmsh")),
     Option("maximum-volume", "VOLUME", "maximum volume of a tetrahedron in cubic world units; "
            "approximate with gmsh", positive),
     Option("quiet", "", "print errors only"),
     Option("progress", "", "print progress lines even if the standard error is not a terminal"),
-    Option("list-properties", "", "print options that set properties of filters: class, "
-           "property, option, default"),
+    Option("list-properties", "", "print options that set properties of filters: class, property, "
+           "option, default"),
     Option("list-files", "", "print the files of the volume"),
 )

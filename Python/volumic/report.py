@@ -50,8 +50,7 @@ def values_of(data: Any, name: str) -> np.ndarray | None:
 
 
 def field_values(data: Any, names: dict[str, str]) -> dict[str, Any]:
-    """Return the values of arrays of the field data that exist. `names` maps report keys to array
-    names."""
+    """Return values of existing field data. `names` maps report keys to array names."""
     found = {name: values_of(data, array) for name, array in names.items()}
     return {name: number_of(values[0, 0]) if values.shape[1] == 1 else _numbers(values[0])
             for name, values in found.items() if values is not None and values.size}
@@ -78,8 +77,7 @@ def surface_summary(surface: Any) -> dict[str, Any]:
 
 
 def component_features(surface: Any) -> list[dict[str, Any]]:
-    """Return the report entry `component_features`, one dict per component, the largest area
-    first."""
+    """Return the report entry `component_features`, a dict per component, by decreasing area."""
     columns = {name: values_of(surface, array) for name, array in COMPONENT_FIELDS.items()}
     columns = {name: values.squeeze(1) if values.shape[1] == 1 else values
                for name, values in columns.items() if values is not None}
@@ -110,8 +108,7 @@ def describe_tetrahedra(mesh: Any) -> str:
 
 
 def property_values(filters: Filters, applies: Callable[[Property], bool]) -> dict[str, str]:
-    """Return the report entry `properties`: values of the properties for which `applies` is
-    true."""
+    """Return the report entry `properties`: values of properties for which `applies` is true."""
     return {item.name: item.get(filters) for item in PROPERTIES if applies(item)}
 
 
@@ -154,9 +151,8 @@ def describe_print(printed: bool, surfaces: Sequence[Any], unit: str) -> str:
 def volume_report(volume_name: str, loaded: LoadedVolume, filters: Filters, surface: Any,
                   finished: bool, seconds: tuple[float, float], reader_memory: float, mesh: Any,
                   warnings: Sequence[str]) -> str:
-    """Return the report of a surface, as written, in JSON. `seconds` are the run times of pyramid
-    and surface, `reader_memory` is peak_memory() after reading, `mesh` a TetrahedralMesh or
-    None."""
+    """Return the report of a surface in JSON. `seconds` are run times of pyramid and surface,
+    `reader_memory` is peak_memory() after reading, `mesh` a TetrahedralMesh or None."""
     properties = property_values(filters, lambda item: item.cls != "vtkLabelsToSurfaces")
     return finish({
         "input": input_summary(volume_name, loaded),

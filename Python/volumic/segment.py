@@ -138,8 +138,7 @@ class Segmentation:
             raise
 
     def connect_input(self) -> None:
-        """Connect the input of the surface filter: a pyramid, or, for vtkVolumeToSurface, the
-        volume."""
+        """Connect the surface filter to a pyramid, or, for vtkVolumeToSurface, to the volume."""
         pyramid, surface = self.filters.pyramid, self.filters.surface
         if surface.IsA("vtkVolumeToSurface"):
             for name in ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor"):

@@ -157,8 +157,7 @@ class LabelRun:
             sys.stdout.write(table_of(self.chosen, spacing, len(self.layers)))
 
     def plan(self) -> None:
-        """Determine the surfaces to compute. Raise Failure if they cannot be computed or
-        written."""
+        """Determine the surfaces. Raise Failure if they cannot be computed or written."""
         chosen, options, outputs = self.chosen, self.options, []
         if not chosen:
             raise Failure(

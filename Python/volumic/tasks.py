@@ -159,8 +159,7 @@ class Job:
     # ---- Counting ------------------------------------------------------------------------------
 
     def _grid(self) -> list[Box]:
-        """Return boxes of whole chunks that cover the map, with two voxels or more along each
-        axis."""
+        """Return boxes of whole chunks that cover the map, at least two voxels along each axis."""
         chunks = getattr(self.source, "chunks", None) or (BLOCK,) * 3
         axes = []
         for size, chunk in zip(self.source.shape, chunks):
@@ -221,8 +220,7 @@ class Job:
         return os.path.exists(self._path("rows", f"{label}.json"))
 
     def bundles(self, part: int = 0, parts: int = 1) -> list[list[int]]:
-        """Return the pending tasks of `make`, or subset `part` of `parts`, the largest crops
-        first."""
+        """Return the pending tasks of `make`, or subset `part` of `parts`, largest crops first."""
         requested, pending = set(self.labels()), []
         for box, labels in self._plan()[part::parts]:
             labels = [label for label in labels if label in requested and not self.is_done(label)]
@@ -285,8 +283,7 @@ class Job:
     # ---- Crops ---------------------------------------------------------------------------------
 
     def _plan(self) -> list[tuple[Box, list[int]]]:
-        """Return crop and labels of each bundle of the map, the largest crops first. The background
-        is the last bundle."""
+        """Return crop and labels of each bundle, largest crops first. The background is last."""
         path = self._path("bundles.json")
         if not os.path.exists(path):
             background, margin = self.properties.get("BackgroundLabel", 0), self._margin()

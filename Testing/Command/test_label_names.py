@@ -132,11 +132,11 @@ class FilesTest(NamesTest):
 
     def test_invalid_files(self):
         for text, reason in (
-                ("", "no label names found"), ("# nothing\n", "names no label"),
+                ("", "no label names found"), ("# nothing\n", "no label names found"),
                 ("1 2 3\n4 5 6\n", "line 1 lacks .* a name"), ("1 liver\n3\n", "line 2 lacks"),
                 ("liver\nspleen\n", "line 2 lacks .* column names such as 'label'"),
                 ("label,name\n1,liver\n3\n", "line 3 lacks"), ("1,2\n3,4\n", "line 1 lacks"),
-                ("label,name\n1,liver\n2.5,x\n", "line 3 lacks a label, which is an integer"),
+                ("label,name\n1,liver\n2.5,x\n", "line 3 lacks an integer label"),
                 ("label,name\n99999999999,x\n", "line 2 lacks"),
                 ("1 liver 255 300 0\n", "colours range from 0 to 300; use 0 to 1 or"),
                 (b"1\0l\0i\0v\0", "not UTF-8 text"), (bytes(17 << 20), "exceeds 16 MiB"),

@@ -214,7 +214,7 @@ class InputTest(LabelsTest):
         process = self.run_command(self.path("organs/*.nii.gz"), self.path("a.vtp"), "--labels",
                                    "all", "--write-volume", written)
         self.assertRegex(process.stderr, r"warning: .*27 overlapping voxels \(liver and part 27\) ")
-        self.assertIn("masks without a voxel: absent", process.stderr)
+        self.assertIn("empty masks: absent", process.stderr)
         listed = self.report(written, "--list-labels")["labels"]
         voxels_of["liver"] -= 27
         self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"] > 0},

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""DICOM by pydicom: series of slices, multi-frame files, segmentations. A slice is a single-frame
-file or a frame."""
+"""DICOM by pydicom: series of slices, segmentations. A slice is a single-frame file or a frame."""
 from __future__ import annotations
 
 import collections
@@ -28,8 +27,7 @@ def is_dicom(file):
 
 
 def dicom_files(path):
-    """Return the DICOM files of a path. Raise VolumeError if a similar file next to them is
-    truncated or damaged."""
+    """Return the DICOM files of a path. Raise VolumeError if a similar file is no valid DICOM."""
     slices = [file for file in map(os.path.abspath, list_files(path)) if is_dicom(file)]
     keys = lambda file: (os.path.splitext(file)[1].lower(), re.sub(r"\d+", "0", file))
     endings, forms = map(set, zip(*map(keys, slices))) if slices else ((), ())
@@ -53,8 +51,7 @@ def dicom_files(path):
 # ---- Headers -----------------------------------------------------------------------------------
 
 def _numbers(sets, name, count=1, default=None):
-    """Return the first `count` numbers of an attribute in the first data set that has it; a scalar
-    if `count` is 1."""
+    """Return the first `count` numbers (1: scalar) of an attribute in the first set that has it."""
     value = next((v for v in (each.get(name) for each in sets) if v not in (None, "")), None)
     if value is None:
         return default

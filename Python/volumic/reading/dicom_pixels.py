@@ -85,8 +85,7 @@ def pixels_of(slices):
 
 
 def _complete_file(file, name):
-    """Return the data set of a file. Raise VolumeError if the file does not end where its header
-    says."""
+    """Return the data set of a file. Raise VolumeError if it does not end after its pixels."""
     data = read_file(file, name)
     tags, end = list(data.keys()), os.path.getsize(file)
     if "PixelData" not in data:
@@ -101,8 +100,7 @@ def _complete_file(file, name):
 
 
 def _uncompressed(file, name, area):
-    """Return the values of an uncompressed file (bytes if they available 1 bit) and their number of
-    bits."""
+    """Return the values of an uncompressed file (bytes for 1 bit) and their number of bits."""
     data = _complete_file(file, name)
     bits, samples = int(data.get("BitsAllocated") or 0), int(data.get("SamplesPerPixel") or 1)
     if samples != 1 or bits not in (1, 8, 16, 32):

@@ -131,8 +131,7 @@ def one_of_times(count, choice, what="volumes in one file (times, phases or mask
 
 
 def check_size(have, need, exact=False):
-    """Raise VolumeError if a file has fewer bytes of voxels than its header requires, or, if
-    `exact`, more."""
+    """Raise VolumeError if a file has too few bytes of voxels or, if `exact`, too many."""
     if have < need or have > need and exact:
         raise VolumeError("the file is %s: it has %d bytes of voxels, but its header requires %d; "
                           "copy it again" % ("truncated" if have < need else "too long",
@@ -142,8 +141,7 @@ def check_size(have, need, exact=False):
 def voxels(file, offset, dtype, count, packing=None, skip=0, size=None, exact=False):
     """Return `count` values of a file, memory-mapped unless compressed ("gzip", "zlib", "bz2"). The
     data start at byte `offset`, the values `skip` uncompressed bytes later. `size` is the number of
-    all uncompressed bytes (default: up to the last value). If `exact`, further bytes are an
-    error."""
+    all uncompressed bytes (default: up to the last value). With `exact`, more are an error."""
     dtype, count = np.dtype(dtype), int(count)
     size = skip + count * dtype.itemsize if size is None else size
     if not packing:

@@ -65,8 +65,7 @@ def read_mrc(path, choice):
 # ---- TIFF --------------------------------------------------------------------------------------
 
 def read_tiff(path, choice):
-    """Read TIFF, BigTIFF, OME-TIFF, ImageJ and LSM by tifffile; compressions that it lacks by
-    Pillow."""
+    """Read TIFF, BigTIFF, OME-TIFF, ImageJ and LSM by tifffile, some compressions by Pillow."""
     import tifffile
     logged, handler = [], logging.Handler(logging.WARNING)
     handler.emit = lambda record: logged.append(record.getMessage().split("> ")[-1].strip("')"))
@@ -91,8 +90,7 @@ def read_tiff(path, choice):
 
 
 def _check_chain(handle, form):
-    """Raise IndexError if the page directories form a cycle, on which tifffile does not
-    terminate."""
+    """Raise IndexError if the page directories form a cycle, in which tifffile hangs."""
     at, seen = form.offsetsize if form.offsetsize == 8 else 4, set()
     while True:
         handle.seek(at)
@@ -183,8 +181,7 @@ def _tiff_spacing(file, first):
 
 
 def _pages_by_pillow(path, series):
-    """Return the pages of a compression that tifffile supports only with imagecodecs, such as
-    LZW."""
+    """Return the pages of compressions that tifffile lacks without imagecodecs, such as LZW."""
     from PIL import Image, ImageSequence
     Image.MAX_IMAGE_PIXELS = 1 << 30
     with tempfile.TemporaryFile() as log:  # libtiff writes to the standard error

@@ -24,8 +24,7 @@ _LARGEST_HEADER = 1 << 20
 # ---- Data in other files -----------------------------------------------------------------------
 
 def _header_lines(path):
-    """Return the lines of a text header, and a function that returns the offset of the data after
-    line n."""
+    """Return the lines of a text header, and a function: line number to offset after the line."""
     with open(path, "rb") as stream:
         data = stream.read(_LARGEST_HEADER)
     lines = data.split(b"\n")

@@ -23,8 +23,7 @@ def read_seeds(path):
 
 
 def read_attracting_points(path):
-    """Return points with arrays Weight and Radius. A text has the columns x, y, z, Weight,
-    Radius."""
+    """Return points with arrays Weight and Radius. A text has columns x, y, z, weight, radius."""
     return _vertices(path, 5)
 
 
@@ -92,8 +91,7 @@ def _text_points(path, columns):
 
 
 def _mesh(path):
-    """Return the vtkPolyData of a file. VTK's readers run in a worker process, as they crash on
-    damaged files."""
+    """Return the vtkPolyData of a file, read in a worker, as VTK crashes on damaged files."""
     from vtkmodules.vtkParallelCore import vtkCommunicator
     require_file(path)
     if not os.path.exists(path):
@@ -140,8 +138,7 @@ def load(path):
 
 
 def _check_vtp(path):
-    """Decode all arrays. Return the number of polygons. VTK's reader fills truncated arrays with
-    zeros."""
+    """Decode all arrays, as VTK fills truncated ones with zeros. Return the number of polygons."""
     file = XmlFile(path)
     if file.kind != "PolyData" or not file.pieces:
         raise VolumeError("the file has %s, not a surface" % (file.kind or "no VTK data"))

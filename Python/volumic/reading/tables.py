@@ -150,8 +150,7 @@ COMMON_MEMBERS = ("labels", "label_names", "names", "segments", "segmentattribut
 
 
 def _labels_in(value: Any) -> list[Label]:
-    """Return the first labels in a JSON value: its own, those of common members, those of
-    others."""
+    """Return the first labels in a JSON value: its own, or those of common or other members."""
     forms: list[list[Any]] = []
     if isinstance(value, list):  # [{"label": 1, "name": "liver"}], also nested
         forms = [[segment for group in value

@@ -141,8 +141,7 @@ def _warn_unsupported(written: Sequence[Any], name: str, warn: Warn) -> None:
 
 def warn_obsolete(folder: str, written: Sequence[str], warn: Warn, start: str = "",
                   suffix: str = ".vtp") -> None:
-    """Warn of files of an earlier run: those with matching names that were not written by this
-    run."""
+    """Warn of files with matching names that are not written by this run."""
     old = sorted(name for name in (os.listdir(folder) if os.path.isdir(folder) else ())
                  if name.startswith(start) and name.endswith(suffix) and name not in written)
     if old:

@@ -57,8 +57,7 @@ def output_file(name: str) -> Iterator[str]:
 
 @contextlib.contextmanager
 def output_folder(folder: str) -> Iterator[str]:
-    """Return a folder whose files are moved to `folder` at the end. Raise Failure, which names the
-    folder."""
+    """Return a folder whose files are moved to `folder` at the end. Raise Failure."""
     with created_folder(folder), _prefix_errors(folder), _hidden_folder(folder) as hidden:
         yield hidden
         _publish(hidden, folder)

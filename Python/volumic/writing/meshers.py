@@ -71,8 +71,7 @@ class SetNames(NamedTuple):
 
 
 def cap_names(surface: Any) -> dict[int, str]:
-    """Return names of the caps of --ends marked by number, such as `cap_1`, distinct from label
-    names."""
+    """Return unique names of the caps of --ends marked by number, such as `cap_1`."""
     caps = cell_array(surface, "Cap")
     names = DistinctNames("_", str, [label.name for label in surface_labels(surface)])
     return {} if caps is None else {

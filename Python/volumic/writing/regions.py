@@ -191,8 +191,7 @@ def find_regions(surface: Any) -> Regions:
 
 def _regions_of_shells(sides: np.ndarray, shell: np.ndarray, of_side: np.ndarray,
                        labels: list[SurfaceLabel]) -> np.ndarray:
-    """Return the region of each shell. An outer shell and the cavities inside it form one
-    region."""
+    """Return the region of each shell. Cavities belong to the region of their outer shell."""
     order = np.argsort(shell, kind="stable")
     starts = np.searchsorted(shell[order], np.arange(shell.max() + 1))
     members, label = np.split(sides[order], starts[1:]), of_side[order[starts]]

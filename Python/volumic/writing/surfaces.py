@@ -245,8 +245,7 @@ def vti(image: Any, show: Show = silent) -> Iterator[bytes]:
 
 
 def write_vtm(blocks: Any, path: str, show: Show = silent) -> None:
-    """Write blocks that are surfaces to files in a folder, and the .vtm file that refers to
-    them."""
+    """Write surfaces in blocks to files in a folder, and the .vtm file that refers to them."""
     parent, stem = os.path.split(os.path.splitext(path)[0])
     os.mkdir(os.path.join(parent, stem))
     text = ('<?xml version="1.0"?>\n<VTKFile type="vtkMultiBlockDataSet" version="1.0">\n'

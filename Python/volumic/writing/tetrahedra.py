@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tetrahedral meshes of surfaces or interfaces by TetGen or gmsh, which are run as programs because
-of their licences."""
+"""Tetrahedral meshes by TetGen or gmsh, which are run as programs because of their licences."""
 
 from __future__ import annotations
 
@@ -63,8 +62,7 @@ def find_mesher(mesher: str = "") -> str:
 
 @dataclasses.dataclass
 class TetrahedralMesh:
-    """A tetrahedral mesh; each tetrahedron has one label. The first points are those of the
-    surface."""
+    """A mesh whose tetrahedra have one label each. Points of the surface come first."""
     grid: Any                # vtkUnstructuredGrid with cell array Label, field data of the surface
     points: np.ndarray       # n x 3
     cells: np.ndarray        # m x 4, of positive volume

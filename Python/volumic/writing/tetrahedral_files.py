@@ -88,8 +88,7 @@ def faces_of(mesh: Any) -> Faces:
 
 def named_sets(faces: Faces, labels: dict[int, str], names: DistinctNames
                ) -> tuple[SetNames, dict[str, np.ndarray]]:
-    """Return the names, and for each pair of labels, box face and cap, which faces are in its
-    set."""
+    """Return names, and which faces are in the set of each pair of labels, box face and cap."""
     own = {part: faces.box == part for part in np.unique(faces.box[faces.box > 0]).tolist()}
     own.update({6 + cap: faces.cap == cap for cap in np.unique(faces.cap[faces.cap > 0]).tolist()})
     set_names = SetNames.of(labels, faces.pairs, own, names)
