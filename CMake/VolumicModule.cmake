@@ -49,3 +49,10 @@ function (volumic_build_module)
 endfunction ()
 
 volumic_build_module()
+
+# VTK installs the LICENSE_FILES of vtk.module from version 9.2 on.
+if (VTK_VERSION VERSION_LESS 9.2)
+  install(FILES "${CMAKE_SOURCE_DIR}/LICENSE"
+    DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Volumic/vtkFiltersVolumic"
+    COMPONENT licenses)
+endif ()
