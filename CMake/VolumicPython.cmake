@@ -54,6 +54,10 @@ else ()
     set(volumic_python_hint "Use the Python of that VTK.")
   endif ()
 endif ()
+if (NOT DEFINED volumic_vtk_version) # VolumicWheel.cmake requires more
+  set(volumic_vtk_version "${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION}")
+  set(volumic_vtk_folder "")
+endif ()
 configure_file("${volumic_python_sources}/__init__.py.in" "${volumic_python_package}/__init__.py"
   @ONLY)
 install(FILES "${volumic_python_package}/__init__.py"

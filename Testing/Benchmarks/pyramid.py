@@ -105,7 +105,7 @@ def measure(options):
     times = times_of(read(options.volume), options.repetitions)
     medians = {key: statistics.median(seconds) for key, seconds in times.items()}
     print_table([["ms", *(f"{levels}, {threads} thread(s)" for levels, threads in WORK)]] + [
-        [who, *(short_text(1e3 * medians[who, *work]) for work in WORK)] for who in (OURS, VTK)])
+        [who, *(short_text(1e3 * medians[(who, *work)]) for work in WORK)] for who in (OURS, VTK)])
     one = medians[OURS, "one level", 1]
     quickest = [min(times[OURS, "one level", threads]) for threads in (1, 2)]
     rows = [("P1", "one level, one thread, to VTK", ratio(one, medians[VTK, "one level", 1]), "<=",

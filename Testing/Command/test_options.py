@@ -131,7 +131,7 @@ class OptionTableTest(CommandTestCase):
         self.refused("suffix.*known are", "a", "b.xyz", status=2)
 
     def test_values_that_the_filter_refuses(self):
-        for reason, *options in (
+        for reason, *given in (
                 ("--upper is 300, but --iso is 500.5; it must be more", "--upper", "300"),
                 ("no voxel is between --iso, 500.5, and --upper, 500.6", "--upper", "500.6"),
                 ("--friction is -1, it must lie in", "--friction", "-1"),
@@ -141,7 +141,7 @@ class OptionTableTest(CommandTestCase):
                  "--no-snap"),
                 ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
                  "--thin-parts", "--edge-length", "1")):
-            self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
+            self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *given)
 
 
 class HelpTest(CommandTestCase):
