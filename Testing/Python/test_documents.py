@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""README.md and Documentation/: what links lead to is there, and the code in them runs."""
+"""Pages of the root and of Documentation: what links lead to is there, and the code in them runs."""
 
 import gzip
 import importlib.util
@@ -20,9 +20,8 @@ from vtk_files import read as read_file
 from volumic.reading import SUFFIXES
 
 PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
-DOCUMENTS = ("README.md", *(f"Documentation/{name}"
-                            for name in sorted(os.listdir(os.path.join(ROOT, "Documentation")))
-                            if name.endswith(".md")))
+DOCUMENTS = sorted(f"{folder}{name}" for folder in ("", "Documentation/")
+                   for name in os.listdir(os.path.join(ROOT, folder)) if name.endswith(".md"))
 
 
 def read(document):
