@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What differs when `pip install` builds (see pyproject.toml; scikit-build-core sets SKBUILD): the
-# library lies in the folder of the Python package.
+# Settings for builds by `pip install` (see pyproject.toml; scikit-build-core sets SKBUILD). The library
+# is installed into the folder of the Python package.
 
 set(CMAKE_INSTALL_LIBDIR volumic)
 set(VOLUMIC_WRAP_PYTHON ON)
 
-# pip shows the end of CMake's output only: a message of our own, with the way out.
+# pip shows only the end of CMake's output. One message at the end names all that is missing.
 find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
 find_package(VTK 9.1 QUIET COMPONENTS Python WrappingPythonCore)
 find_package(TBB QUIET)
