@@ -4,8 +4,8 @@
 # Debian packages, made by `cpack` in the build tree:
 #   with VTK       volumic (command, Python package and library), volumic-dev
 #   with ParaView  paraview-volumic (plugin, its library and Python package)
-# The headers and CMake files for ParaView's VTK are in no package: they would be where those of
-# volumic-dev are.
+# No package contains the headers and CMake files for ParaView's VTK, because their paths are those of
+# volumic-dev.
 
 if (NOT volumic_makes_packages)
   message(STATUS "No Debian packages: they need -DCMAKE_INSTALL_LIBDIR="
@@ -22,8 +22,8 @@ set(volumic_debian_revision 1)
 set(volumic_debian_version "${Volumic_VERSION}-${volumic_debian_revision}")
 string(TIMESTAMP volumic_debian_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 
-# volumic_describe_package(COMPONENT PACKAGE SECTION SUMMARY): what is the same for all packages:
-# copyright and changelog (in an ordinary installation there are none).
+# volumic_describe_package(COMPONENT PACKAGE SECTION SUMMARY): set what all packages have, and add
+# copyright and changelog, which `cmake --install` does not install.
 function (volumic_describe_package component package section summary)
   set(changelog "${CMAKE_BINARY_DIR}/debian/${package}/changelog.Debian")
   configure_file("${volumic_debian}/changelog.in" "${changelog}" @ONLY)
@@ -44,7 +44,7 @@ endfunction ()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME volumic)
 set(CPACK_PACKAGE_VENDOR "Volumic contributors")
-# Each package has its own summary: the first line of its description.
+# The summary of each package is the first line of its description.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(CPACK_PACKAGE_CONTACT "${VOLUMIC_PACKAGE_MAINTAINER}")
 set(CPACK_PACKAGE_VERSION "${Volumic_VERSION}")
@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE "${volumic_debian_revision}")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-# Which packages the libraries come from; our own are found in the build and named below.
+# Find the packages of required libraries. The project's own libraries are found in the build.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 
@@ -70,19 +70,19 @@ math(EXPR volumic_next_python "${Python3_VERSION_MINOR} + 1")
 set(volumic_python_dependency
   "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${volumic_next_python})")
 
-# Which are imported as a file is read or written that needs them; tetgen and gmsh are programs.
+# Libraries that are imported when a file of their format is read or written.
 set(volumic_python_recommends "python3-scipy, python3-nibabel, python3-pydicom, python3-gdcm"
   "python3-tifffile, python3-mrcfile, python3-zarr, python3-h5py, python3-meshio, python3-pil")
 list(JOIN volumic_python_recommends ", " volumic_python_recommends)
 
-# One package of all that is not for development.
+# One package contains everything that is not for development.
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_COMPONENTS_ALL runtime)
-# Tell the linker and other packages of the library.
+# Register the library with the linker and with dpkg-shlibdeps.
 set(control library-shlibs.in library-triggers.in)
 if (VOLUMIC_WRAP_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  # Byte-compile at installation, and leave nothing behind.
+  # Byte-compile at installation, and remove the result at removal.
   list(APPEND control python-postinst.in python-prerm.in)
 endif ()
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
@@ -103,7 +103,7 @@ else ()
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${volumic_python_recommends}")
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
       "tetgen, gmsh, draco, python3-distributed, python3-argcomplete")
-    # The Python package had a package of its own.
+    # Replaces the former package python3-volumic.
     foreach (field IN ITEMS PROVIDES CONFLICTS REPLACES)
       set("CPACK_DEBIAN_RUNTIME_PACKAGE_${field}" python3-volumic)
     endforeach ()

@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Builds the VTK module Volumic::FiltersVolumic, for VTK or for ParaView.
+# Build the VTK module Volumic::FiltersVolumic for VTK or ParaView.
 
-# Both flavours can be installed under one prefix: what is for ParaView says so in its name, as
-# Debian's own libraries do.
+# Both flavours can be installed under one prefix. Names of files for ParaView have a suffix, as those
+# of Debian's libraries.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   set(volumic_flavour "pv${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}")
   set(volumic_flavour_suffix "-${volumic_flavour}")
@@ -14,7 +14,7 @@ else ()
 endif ()
 set(volumic_cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/Volumic${volumic_flavour_suffix}")
 
-# Installed things find each other wherever the prefix is moved to, and VTK wherever it was found.
+# Installed files find each other after the prefix is moved, and VTK where CMake found it.
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 
 function (volumic_build_module)
@@ -24,8 +24,7 @@ function (volumic_build_module)
     PROVIDES_MODULES modules
     HIDE_MODULES_FROM_CACHE ON
     ENABLE_TESTS OFF)
-  # The folder of vtk.module is the project's own, and so would be its binary folder: a folder
-  # below serves, within this function.
+  # The folder of vtk.module is the root, so the module needs another binary folder than the project.
   set(version VERSION "${Volumic_VERSION}" SOVERSION "${Volumic_VERSION_MAJOR}")
   if (SKBUILD)
     set(version "") # a wheel has no links, so the library has one name only

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What a user can choose, and what follows from it for all targets.
+# Options of the user, and settings of all targets.
 
 include(GNUInstallDirs)
 
@@ -11,8 +11,8 @@ option(VOLUMIC_BUILD_EXAMPLES "Build the C++ examples" OFF)
 option(VOLUMIC_BUILD_BENCHMARKS "Build the benchmarks" OFF)
 option(VOLUMIC_EXTRA_WARNINGS "For developers: let the compiler warn of more than it does by default" OFF)
 
-# Debian's VTK works with Debian's interpreter only, which need not be the first on PATH:
-# -DPython3_EXECUTABLE=/usr/bin/python3 chooses it.
+# Debian's VTK works with Debian's interpreter only. If another one comes first on PATH, set
+# -DPython3_EXECUTABLE=/usr/bin/python3.
 find_package(Python3 QUIET COMPONENTS Interpreter Development.Module)
 option(VOLUMIC_WRAP_PYTHON "Build the Python package and the command `volumic`" "${Python3_FOUND}")
 
@@ -30,13 +30,13 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# Debian packages (VolumicDebian.cmake) install into /usr, and the paths below it are fixed here.
+# Debian packages (VolumicDebian.cmake) are installed into /usr with these paths.
 set(volumic_makes_packages OFF)
 if (CMAKE_LIBRARY_ARCHITECTURE
     AND CMAKE_INSTALL_LIBDIR STREQUAL "lib/${CMAKE_LIBRARY_ARCHITECTURE}")
   set(volumic_makes_packages ON)
 endif ()
-# VTK's messages name the source file: not where it lay when a package or a wheel was made.
+# VTK's messages contain source paths. Remove the build machine's part in packages and wheels.
 if ((volumic_makes_packages OR SKBUILD) AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   add_compile_options("-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/="
     "-fmacro-prefix-map=${CMAKE_BINARY_DIR}/=")
@@ -46,8 +46,7 @@ set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_BINDIR}"
 set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}")
 
-# What is wanted of VTK: the module's own dependencies, and the wrapper's. Tests, examples and
-# benchmarks ask for more themselves.
+# VTK components of the module and its Python wrapping. Tests, examples and benchmarks find others.
 set(volumic_vtk_components
   CommonCore CommonDataModel CommonExecutionModel CommonMath FiltersCore)
 if (VOLUMIC_WRAP_PYTHON)

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What find_package(Volumic) reads: vtk_module_build writes targets and their properties only.
+# Write the files that find_package(Volumic) reads, except targets, which vtk_module_build writes.
 
 include(CMakePackageConfigHelpers)
 
 set(volumic_vtk_dir "${${VOLUMIC_VTK_PACKAGE}_DIR}")
-# ParaView is found as a whole, of VTK the modules that ours needs.
+# ParaView is found without components, VTK with those that the module needs.
 set(volumic_dependency_components "")
 if (NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   list(JOIN volumic_vtk_components " " volumic_dependency_components)

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# VOLUMIC_EXTRA_WARNINGS: more warnings for every target that holds code of ours, and for none of
-# VTK's wrappings. Headers of VTK, ParaView, Qt and CGAL are the system's for the compiler, which is
-# silent about them. CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) makes errors of the warnings.
+# VOLUMIC_EXTRA_WARNINGS adds warnings to all targets of the project except generated wrappers. Headers
+# of VTK, ParaView, Qt and CGAL are system headers, which give no warnings.
+# CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) turns warnings into errors.
 
 if (NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it knows the flags of GCC and Clang only, "
+  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it supports GCC and Clang, "
     "not those of ${CMAKE_CXX_COMPILER_ID}.")
   return ()
 endif ()
@@ -14,16 +14,16 @@ endif ()
 set(volumic_warnings -Wall -Wextra -Wshadow)
 set(volumic_vtk_warnings ${volumic_warnings} -Wpedantic)
 if (CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  # The semicolon that VTK's habits put behind vtkTypeMacro() is one too many.
+  # VTK writes a semicolon after vtkTypeMacro(), which is redundant.
   list(APPEND volumic_vtk_warnings -Wno-extra-semi)
 elseif (CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-  # The same; and this compiler has no flag of its own for it.
+  # The same semicolon. GCC before 14 has no separate flag for it.
   list(REMOVE_ITEM volumic_vtk_warnings -Wpedantic)
 endif ()
 list(APPEND volumic_warnings -Wpedantic)
 
-# Numbers are converted with care in what users run. Signs are left out, which Clang counts in:
-# vertices and voxels have signed numbers, containers unsigned ones.
+# Warnings on conversions, for targets that users run. Conversions of signs are excluded, because
+# indices of vertices and voxels are signed and sizes of containers unsigned.
 set(volumic_conversion_warnings -Wconversion -Wno-sign-conversion)
 
 # volumic_add_warnings(WARNINGS TARGET...)

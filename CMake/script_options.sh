@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Sourced by debian.sh: how the project's scripts read their command lines. A script has two
-# functions of its own, `usage`, which prints its help, and `take_option`, which gets the words of
-# the command line that are left, the option first:
+# Sourced by debian.sh. Reads the command lines of the project's scripts. A script defines `usage`,
+# which prints its help, and `take_option`, which gets the remaining words, the option first:
 #
 #   take_option()
 #   {
@@ -15,8 +14,8 @@
 #   }
 #   parse_options "$@"
 
-# parse_options WORD...: --help is for all scripts; unknown options end the script. Where
-# take_option says used=0, the options end: this word and the rest are left in the array `arguments`.
+# parse_options WORD...: handle --help, and exit on unknown options. If take_option sets used=0, the
+# options end, and this word and the rest are stored in the array `arguments`.
 parse_options()
 {
   local used # words of the option
@@ -41,14 +40,14 @@ parse_options()
   done
 }
 
-# need_value WHAT OPTION [VALUE]...: in take_option: the option has a value, the next word.
+# need_value WHAT OPTION [VALUE]...: in take_option: use the next word as the value of the option.
 need_value()
 {
   [ $# -ge 3 ] || fail "$2 needs $1"
   used=2
 }
 
-# need_number OPTION [VALUE]...: the same, of a whole number.
+# need_number OPTION [VALUE]...: the same for an integer.
 need_number()
 {
   [[ ${2:-} =~ ^[0-9]+$ ]] || fail "$1 needs a number"

@@ -22,15 +22,15 @@ from pathlib import Path
 import volumic
 from volumic import vtkFiltersVolumic as module
 
-# Of VTK's words for types; what is not here and no class of VTK's is Any.
+# Types in VTK's docstrings. Others, except classes of VTK, are Any.
 TYPES = {"int": "int", "float": "float", "bool": "bool", "str": "str", "bytes": "bytes",
          "None": "None", "Callback": "Callable[..., Any]"}
-# Special methods of later VTKs, which have no signatures.
+# Special methods of newer VTK versions, which have no signatures.
 SPECIAL = {"__init__": "(self, **properties: Any) -> None",
            "__call__": "(self, *inputs: Any) -> Any",
            "__rshift__": "(self, consumer: Any) -> Any",
            "__rrshift__": "(self, producer: Any) -> Any"}
-# The wrapper takes the name of an event, too, which its docstring does not tell.
+# The wrapper also accepts the name of an event, which its docstring does not document.
 CORRECTIONS = {"AddObserver": ("event:int", "event:EventName")}
 UNKNOWN = "(self, *arguments: Any) -> Any"
 
