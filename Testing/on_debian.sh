@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Runs the tests, or another command, on a bare Debian of any release: a system of its own in a
-# folder, made by debootstrap, with a copy of this checkout. Needs root, for chroot.
+# Run the tests, or another command, on any release of Debian: a minimal system in a folder, made by
+# debootstrap, with a copy of this checkout. Needs root for chroot.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -14,13 +14,13 @@ usage()
 Usage: bash Testing/on_debian.sh [OPTION]... RELEASE [COMMAND [ARGUMENT]...]
   RELEASE           bookworm, trixie, forky, testing, sid or another name; or 12, 13, 14
   COMMAND           what is run in the copy's root folder; by default bash Testing/run.sh
-  --system DIR      keep the system in DIR, and use the one that is there from a run before; by
-                    default it is made in a temporary folder and removed at the end
-  --bind DIR        let the system see this folder, too, under the same name; may be repeated
-  --mirror URL      where the packages come from; by default from where this machine's come
+  --system DIR      keep the system in DIR, or use the system that is there; by default it is made
+                    in a temporary folder and removed at the end
+  --bind DIR        mount this folder in the system under the same name; may be repeated
+  --mirror URL      Debian mirror (default: the mirror of this machine)
   --help            this text
-The copy is /volumic/checkout in the system; its build folder is kept as long as the system is. A
-folder `shared` beside this checkout is seen beside the copy, read-only.
+The copy is /volumic/checkout in the system. Its build folder is kept as long as the system. If there
+is a folder `shared` beside this checkout, it is mounted beside the copy, read-only.
 Exit status: the command's.
 USAGE
 }
@@ -60,7 +60,7 @@ case $release in
   12) release=bookworm ;;
   13) release=trixie ;;
   14) release=forky ;;
-  *[!a-z]*) fail "$release: is no release of Debian" ;;
+  *[!a-z]*) fail "$release is not a release of Debian" ;;
 esac
 case ${1-} in
   -*) fail "$1: options come before the release" ;;
@@ -70,12 +70,12 @@ if [ $# -gt 0 ]; then
 else
   command=(bash Testing/run.sh)
 fi
-[ "$(id -u)" -eq 0 ] || fail "A system of its own takes root's rights: please start this with sudo."
+[ "$(id -u)" -eq 0 ] || fail "Run this script as root, which chroot requires."
 
 # ---- Cleaning up -------------------------------------------------------------------------------
 
-# Whatever is mounted, is mounted in a namespace that ends with its processes; they end with this
-# script, even if it is killed. So only the temporary folder is left to be removed here.
+# All mounts are in a namespace that ends with its processes, and these end with this script even if it
+# is killed. Only the temporary folder has to be removed here.
 temporary=
 child=
 clean_up()
@@ -92,8 +92,8 @@ trap 'exit 129' HUP
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-# apart COMMAND...: run it with mounts and processes of its own. Not in the foreground, where a
-# signal would have to wait for its end.
+# apart COMMAND...: run the command with separate mounts and processes. It runs in the background,
+# because bash handles signals only after a command in the foreground ends.
 apart()
 {
   local status=0
@@ -107,7 +107,7 @@ apart()
 
 # ---- The system --------------------------------------------------------------------------------
 
-# Where this machine's Debian packages come from; debootstrap knows a place itself.
+# Print the Debian mirror of this machine, if any. Otherwise debootstrap has a default.
 configured_mirror()
 {
   apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' \
@@ -125,7 +125,7 @@ make_system()
     "$release" "$1" "${mirror:-http://deb.debian.org/debian}" "$script"
 }
 
-# How apt reaches the mirror: proxies and the like.
+# Settings of apt to reach the mirror, such as proxies.
 copy_network_settings()
 {
   cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
@@ -133,8 +133,8 @@ copy_network_settings()
     > "$1/etc/apt/apt.conf.d/90machine"
 }
 
-# copy_checkout DIR: this checkout as it is, without what git ignores; DIR/build stays. Files are as
-# new as the copy: one that was changed before a build of an earlier copy ended would look built.
+# copy_checkout DIR: copy this checkout without files that git ignores, and keep DIR/build. Files get the
+# time of the copy, so that the next build notices all changes.
 copy_checkout()
 {
   mkdir -p "$1"
@@ -167,7 +167,7 @@ enter='
     LANG=C.UTF-8 TERM="${TERM:-dumb}" DEBIAN_FRONTEND=noninteractive \
     sh -c "cd /volumic/checkout && exec \"\$@\"" sh "$@"'
 
-# In braces, so that all of it is read before it runs: this file may be edited meanwhile.
+# In braces, so that bash reads all of it before it runs. The file may then be edited.
 {
 plan_steps 3
 install_packages debootstrap debian-archive-keyring git
@@ -188,7 +188,7 @@ else
   if [ -e "$system" ] && [ -n "$(ls -A "$system")" ]; then
     fail "$system holds something else. Choose a folder that is empty or not there yet."
   fi
-  # Under another name until it is complete.
+  # The folder has another name until the system is complete.
   export -f make_system
   export release mirror
   rm -rf --one-file-system "$system.partial"
@@ -198,7 +198,7 @@ else
   mv "$system.partial" "$system"
 fi
 system=$(realpath "$system")
-# Another run would have the sources replaced while they are compiled.
+# Another run would replace the sources during a build.
 exec 9> "$system/volumic.lock"
 flock -n 9 || fail "$system is in use by another run. Wait for its end, or choose another folder."
 

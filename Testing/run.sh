@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# From a bare Debian to all tests passed: installs what is missing, builds Volumic for VTK and
-# for ParaView under build/, and runs the tests of both. Quick when run again.
+# Install missing packages on Debian, build Volumic for VTK and for ParaView below build/, and run the
+# tests of both. Further runs build only what has changed.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -35,8 +35,8 @@ take_option()
 }
 parse_options "$@"
 
-# run_tests FLAVOUR: one step, whose output is shown as it comes. Failures don't stop the script, so
-# that the other flavour's tests are run too.
+# run_tests FLAVOUR: one step, which shows its output. Failures do not stop the script, so that the
+# tests of the other flavour run as well.
 failed=0
 run_tests()
 {
@@ -51,7 +51,7 @@ run_tests()
   [ "$status" -eq 0 ] || failed=1
 }
 
-# summarize FLAVOUR: one line from ctest's output.
+# summarize FLAVOUR: print one line from the output of ctest.
 summarize()
 {
   local log=$logs/test-$1.log passed skipped broken seconds
@@ -63,8 +63,8 @@ summarize()
     "${broken:-0}" "$skipped" "$seconds" "$log"
 }
 
-# slowest: the ten tests that took longest, of all flavours. The last command of the pipe reads all:
-# one that closes it early would end `sort`, and with it the script.
+# slowest: print the ten slowest tests of all flavours. The last command of the pipe reads all lines,
+# because `sort`, and with it the script, ends if the pipe is closed early.
 slowest()
 {
   local flavour
@@ -74,8 +74,8 @@ slowest()
   done | sort -rn | sed -n '1,10s/^/  /p'
 }
 
-# use_ccache: much is compiled alike for both flavours, and more of it again the next time. In the
-# mode `depend`, ccache asks the compiler what it has read, and knows precompiled headers.
+# use_ccache: compile files once that both flavours, or two runs, share. In the mode `depend` ccache
+# gets the included files from the compiler, which supports precompiled headers.
 use_ccache()
 {
   ccache_options=()
