@@ -133,8 +133,8 @@ copy_network_settings()
     > "$1/etc/apt/apt.conf.d/90machine"
 }
 
-# copy_checkout DIR: copy this checkout without files that git ignores, and keep DIR/build. Files get the
-# time of the copy, so that the next build notices all changes.
+# copy_checkout DIR: copy this checkout without files that git ignores, and keep DIR/build. Files get
+# the time of the copy, so that the next build notices all changes.
 copy_checkout()
 {
   mkdir -p "$1"
