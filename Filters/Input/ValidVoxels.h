@@ -42,7 +42,7 @@ std::array<double, 2> RangeOf(vtkDataArray* contiguous, const ValidVoxels& valid
 /** @throws std::invalid_argument if no voxel is valid. */
 void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid);
 
-/** `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k), which are background.` */
+/** Return "array 'v' has 3 NaN voxels (1.5 %), the first at (i, j, k), which are background". */
 std::string DescribeNaNs(vtkDataArray* original, vtkImageData* image, const ValidVoxels& valid);
 }
 

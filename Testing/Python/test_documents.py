@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of README.md and Documentation/: links are valid, code blocks run."""
+"""Tests of the pages in the root and Documentation/: links are valid, code blocks run."""
 
 import gzip
 import importlib.util
@@ -20,9 +20,8 @@ from vtk_files import read as read_file
 from volumic.reading import SUFFIXES
 
 PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
-DOCUMENTS = ("README.md", *(f"Documentation/{name}"
-                            for name in sorted(os.listdir(os.path.join(ROOT, "Documentation")))
-                            if name.endswith(".md")))
+DOCUMENTS = sorted(f"{folder}{name}" for folder in ("", "Documentation/")
+                   for name in os.listdir(os.path.join(ROOT, folder)) if name.endswith(".md"))
 
 
 def read(document):

@@ -109,6 +109,33 @@ class PipInstallTest(unittest.TestCase):
         self.assertEqual(distribution, version)
         self.assertTrue(file.startswith(str(self.folder)), file)
 
+    def test_requires_its_vtk(self):
+        """By pip if pip lists VTK, and always on import."""
+        output = run(self.bin / "python", "-c", """if True:
+            import importlib.metadata as m, vtkmodules
+            known = [d.version for d in m.distributions(name="vtk")]
+            print(vtkmodules.__version__, *known, sep="\\n")
+            print(*[r for r in m.requires("volumic") if "extra" not in r], sep="\\n")""")
+        version, *rest = output.split()
+        self.assertIn(rest, ([], [version, f"vtk=={version}"]))
+        for other in (version, version + "1"):  # found first, even of the same version
+            with tempfile.TemporaryDirectory() as folder:
+                Path(folder, "vtkmodules").mkdir()
+                Path(folder, "vtkmodules", "__init__.py").write_text(f"__version__ = '{other}'\n",
+                                                                     encoding="utf-8")
+                output = run(self.bin / "python", "-c", "import volumic", check=False,
+                             env={**ENVIRONMENT, "PYTHONPATH": folder})
+                self.assertRegex(output, f"built for VTK {version} in /.* finds VTK {other} in "
+                                         f"{folder}")
+
+    def test_record_matches_files(self):
+        run(self.bin / "python", "-c", """if True:
+            import base64, hashlib, importlib.metadata as m
+            for file in m.files("volumic"):
+                if file.hash and file.hash.mode == "sha256":
+                    digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_binary()).digest())
+                    assert digest.rstrip(b"=").decode() == file.hash.value, file""")
+
     def test_surface_is_bit_identical(self):
         ours = run(self.bin / "python", "-c", SCRIPT, cwd=self.folder)
         other = {**ENVIRONMENT, "PYTHONPATH": os.environ["PYTHONPATH"],
