@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
+/** Vertices per task. */
 constexpr std::size_t SpanSize = 8192;
 }
 
@@ -46,7 +46,7 @@ void KeptEdges::KeepAll()
 
 std::vector<int> KeptEdges::FindOverfull() const
 {
-  // Each run of kept edges adds a neighbour; with all of them kept there are as many as before.
+  // Each run of kept edges adds a neighbour, unless all edges are kept.
   std::vector<int> found;
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
@@ -77,7 +77,7 @@ int KeptEdges::CountFrom(int v) const
 
 namespace
 {
-/** The sums of countOf(v) of all vertices before each, and of all. */
+/** Compute the sums of countOf(v) over all vertices before each one. Return the total. */
 template <typename CountOf>
 int AddUp(LargeVector<int>& first, std::size_t n, Executor& executor, const CountOf& countOf)
 {
@@ -135,7 +135,7 @@ void Append(Ring& ring, int vertex)
   }
 }
 
-/** A division at work. */
+/** State of a division. */
 class SqrtThreeDivision
 {
 public:
@@ -146,7 +146,9 @@ public:
     this->Divided.Remake(n);
   }
 
-  /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread.
+  /**
+   * Make an old vertex, and the new ones of the faces and edges whose smallest vertex it is.
+   * Thread-safe for different vertices.
    */
   void DivideAt(int v);
   SurfaceMesh Take() { return std::move(this->Divided); }
@@ -154,14 +156,14 @@ public:
 private:
   int FirstCentre() const { return this->Mesh.Size(); }
   int FirstMiddle() const { return this->Mesh.Size() + this->Numbers.Faces; }
-  /** The new vertex of the face between a neighbour of `a` and the next one. */
+  /** Return the centroid vertex of the face (a, b, c). */
   int CentreOf(int a, int b, int c) const;
-  /** The same of the face on the left of an edge. */
+  /** Return the centroid vertex of the face to the left of an edge. */
   int CentreLeftOf(int a, int b) const
   {
     return this->CentreOf(a, b, this->Mesh.Rings[a].After(b));
   }
-  /** The new vertex of the edge from v to its neighbour i; None: it is flipped. */
+  /** Return the midpoint vertex of the edge from v to its neighbour i, or None if it is flipped. */
   int MiddleAt(int v, int i) const;
   int MiddleOf(int u, int v) const
   {
@@ -237,7 +239,7 @@ void SqrtThreeDivision::MakeCentre(int centre, const std::array<int, 3>& face)
   const LargeVector<Vector>& position = this->Mesh.Position;
   this->Divided.Position[centre] =
     (position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f);
-  // Corner, then what lies across the edge to the next corner.
+  // A corner, then the vertex across the edge to the next corner.
   Ring& ring = this->Divided.Rings[centre];
   for (int k = 0; k < 3; ++k)
   {

@@ -46,7 +46,7 @@ void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexRoom* room) const
   const int at = old.Find(this->Removed);
   const int a = old.Next(at);
   const int b = old.Previous(at);
-  // The other ring reads Kept, b, c1 .. ck, a: c1 .. ck take the place of Removed.
+  // The other ring is Kept, b, c1 .. ck, a. Replace Removed by c1 .. ck.
   Ring ring;
   for (int i = 0; i < at; ++i)
   {

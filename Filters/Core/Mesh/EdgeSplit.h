@@ -8,8 +8,9 @@
 namespace volumic
 {
 /**
- * Sets a vertex into an edge (U, V) and joins it to the two opposite vertices. chi stays.
- * At the midpoint the surface as a set of points is unchanged, so nothing needs verification.
+ * Split of the edge (U, V) by a new vertex, which is joined to the two opposite vertices. chi is
+ * unchanged. At the midpoint the surface does not change as a point set, so no intersection test is
+ * needed.
  */
 struct EdgeSplit
 {
@@ -17,7 +18,7 @@ struct EdgeSplit
   int V = -1;
 
   bool IsLegal(const SurfaceMesh& mesh) const;
-  /** @return the new vertex. */
+  /** Return the new vertex. */
   int Apply(SurfaceMesh& mesh, const Vector& position, VertexRoom* room = nullptr) const;
 };
 }

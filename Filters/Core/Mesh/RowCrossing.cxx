@@ -10,7 +10,7 @@ namespace volumic
 void RowGrid::AddCrossings(
   const std::array<Point, 3>& triangle, std::vector<Crossing>& crossings) const
 {
-  constexpr double rounding = 1e-6; // Pitches: rows so near are looked at too.
+  constexpr double rounding = 1e-6; // In spacings, as a margin for rounding.
   const auto first = [this](int axis, double from)
   {
     const double place = (from - this->Coordinate(axis, 0)) / this->Pitch;
@@ -24,7 +24,7 @@ void RowGrid::AddCrossings(
     {
       break;
     }
-    // Where the plane at z cuts the triangle.
+    // Range along y of the section of the triangle at z.
     double low = std::numeric_limits<double>::max();
     double high = -low;
     for (int c = 0; c < 3; ++c)

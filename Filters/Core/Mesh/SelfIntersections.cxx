@@ -13,12 +13,12 @@ namespace volumic
 namespace
 {
 /**
- * Triangles nearer than this share of the mean edge, or of the largest coordinate, count as
- * intersecting: far less than the rounding of the points to float.
+ * Triangles count as intersecting if they are nearer than this fraction of the mean edge length, or
+ * of the largest coordinate. It is far less than the rounding of the points to float.
  */
 constexpr double ToleranceOfEdges = 2e-9;
 constexpr double ToleranceOfExtent = 1e-14;
-/** The tree has the points as they are, the tests have them rounded to float. */
+/** Margin for rounding: the tree has exact points, the tests have points rounded to float. */
 constexpr double RoundingOfExtent = 1e-6;
 
 MeshTriangle RoundedTriangle(const IndexedSurface& surface, int i)
@@ -35,7 +35,7 @@ MeshTriangle RoundedTriangle(const IndexedSurface& surface, int i)
   return triangle;
 }
 
-/** What of a tree may intersect a triangle: boxes that overlap its own and that its plane cuts. */
+/** Selects tree nodes that overlap the box of a triangle and are cut by its plane. */
 class CandidateBox
 {
 public:
@@ -155,7 +155,7 @@ std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSu
         MeshTriangle candidate = RoundedTriangle(other, j);
         for (int& vertex : candidate.Vertex)
         {
-          vertex = -1 - vertex; // none of this surface's
+          vertex = -1 - vertex; // Differs from all vertices of `surface`.
         }
         isFound = TrianglesIntersect(triangle, candidate, tolerance);
         return !isFound;

@@ -58,7 +58,7 @@ void CheckIndices(const IndexedSurface& surface)
 
 void CheckEdges(const IndexedSurface& surface)
 {
-  std::unordered_map<long long, std::pair<int, int>> edges; // uses in either direction
+  std::unordered_map<long long, std::pair<int, int>> edges; // Uses in either direction.
   edges.reserve(surface.Triangles.size() * 2);
   const long long n = static_cast<long long>(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
@@ -103,7 +103,7 @@ void CheckEdges(const IndexedSurface& surface)
 
 void CheckVertices(const IndexedSurface& surface)
 {
-  // Edges being in order, a vertex is a manifold one if its triangles form a single fan.
+  // All edges are valid, so a vertex is manifold if its triangles form a single fan.
   std::vector<std::vector<std::pair<int, int>>> opposite(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
   {
@@ -138,7 +138,7 @@ void CheckVertices(const IndexedSurface& surface)
 
 void CheckOrientation(const IndexedSurface& surface)
 {
-  // Cavities are legal, so it is the component with the largest volume that must face outward.
+  // Cavities are legal. Therefore only the component with the largest volume must face outward.
   const SurfaceFeatures features = ComputeFeatures(surface);
   double largest = 0.;
   for (const ComponentFeatures& c : features.Components)
@@ -156,7 +156,7 @@ void CheckOrientation(const IndexedSurface& surface)
   }
 }
 
-/** A place in a triangle that has nothing in common with the lines of round numbers. */
+/** Return an interior point of a triangle that is not aligned with simple fractions. */
 Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
 {
   constexpr double weights[3] = { 0.41421, 0.35425, 0.23154 }; // Their sum is 1.
@@ -170,8 +170,8 @@ Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
 }
 
 /**
- * Every component must face outward, or inward if it is a cavity of one that does: only then is
- * the whole the boundary of a volume.
+ * Throw unless every component faces outward, or inward if it is a cavity of one that faces
+ * outward. Only then is the surface the boundary of a volume.
  */
 void CheckNesting(const IndexedSurface& surface)
 {

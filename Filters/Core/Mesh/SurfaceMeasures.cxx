@@ -10,7 +10,7 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread sums up at a time. */
+/** Vertices per task. */
 constexpr std::size_t SpanSize = 2048;
 }
 
@@ -38,9 +38,11 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
 {
   constexpr float most = std::numeric_limits<float>::max();
   const Box none = { Vector(most, most, most), Vector(-most, -most, -most) };
-  const Box box = JoinVertices(mesh, executor, none,
-    [&mesh](int v, Box& some)
-    { some = mesh.IsAlive(v) ? some.With({ mesh.Position[v], mesh.Position[v] }) : some; },
+  const Box box = JoinVertices(
+    mesh, executor, none,
+    [&mesh](int v, Box& some) {
+      some = mesh.IsAlive(v) ? some.With({ mesh.Position[v], mesh.Position[v] }) : some;
+    },
     [](const Box& a, const Box& b) { return a.With(b); });
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }

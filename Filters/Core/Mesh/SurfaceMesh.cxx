@@ -20,7 +20,7 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
+/** Vertices per task. */
 constexpr std::size_t VertexSpan = 8192;
 }
 
@@ -36,7 +36,7 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   {
     if (second.Contains(first.Item[i]))
     {
-      return false; // Two edges: nearly all that are near and no neighbours.
+      return false; // Two edges apart: the most frequent case.
     }
   }
   for (int i = 0; i < first.Count; ++i)
@@ -100,13 +100,13 @@ std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
 
 int SurfaceMesh::CountEulerCharacteristic(Executor& executor) const
 {
-  // Every face has three half edges, every edge two: V - E + F = V - F / 2.
+  // Each face has three half-edges, each edge two: V - E + F = V - F / 2.
   return static_cast<int>(this->NumberOfVertices() - this->NumberOfFaces(executor) / 2);
 }
 
 namespace
 {
-/** For each span of vertices the number of alive ones before it, and that of all. */
+/** Return the number of alive vertices before each span, and the total. */
 std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 {
   return FirstOfSpans(executor, mesh.Rings.size(), VertexSpan,
@@ -121,7 +121,7 @@ std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
-  LargeVector<int> place; // Written, and made room for, by threads.
+  LargeVector<int> place; // Allocated and written by threads.
   MakeZeroed(place, this->Rings.size());
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
   MakeZeroed(surface.Points, firstPoint.back());
@@ -158,10 +158,10 @@ namespace
 {
 using DirectedEdge = std::pair<int, int>;
 
-/** Triangles that one thread looks at at a time. */
+/** Triangles per task. */
 constexpr std::size_t TriangleSpan = 16384;
 
-/** For each point of a surface the corners of triangles that lie there. */
+/** Triangle corners at each point of a surface. */
 class CornersOfPoints
 {
 public:
@@ -199,7 +199,7 @@ public:
 
   int Count(std::size_t point) const { return this->Start[point + 1] - this->Start[point]; }
 
-  /** The edges opposite to a point, in the order of the triangles, whichever thread came first. */
+  /** Find the edges opposite to a point, in the order of the triangles for any executor. */
   void FindOppositeEdges(std::size_t point, std::vector<DirectedEdge>& edges)
   {
     std::sort(
@@ -215,12 +215,12 @@ public:
 
 private:
   const IndexedSurface& Surface;
-  LargeVector<std::atomic<int>> Left; ///< Of the corners of a point those that have no place yet.
-  LargeVector<int> Start;             ///< Of those of each point, and the end of the last.
-  LargeVector<int> Corners;           ///< 3 x triangle + place in it.
+  LargeVector<std::atomic<int>> Left; ///< By point: corners not stored yet.
+  LargeVector<int> Start;             ///< By point: index of its first corner in Corners.
+  LargeVector<int> Corners;           ///< 3 x triangle + index in it.
 };
 
-/** The ring that the edges opposite to a vertex make, which are left in `edges`. */
+/** Return the ring of a vertex from the edges opposite to it. `edges` is a buffer. */
 Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edges)
 {
   const int count = corners.Count(static_cast<std::size_t>(vertex));
@@ -240,7 +240,7 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
   for (int i = 0; i < count; ++i)
   {
     ring.Item[i] = edges[i].first;
-    // Bring the edge that begins where this one ends to the next place.
+    // Move the edge that begins where this one ends to the next position.
     for (int j = i + 1; j < count; ++j)
     {
       if (edges[j].first == edges[i].second)
@@ -265,7 +265,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   const std::size_t n = surface.Points.size();
   CornersOfPoints corners(surface, executor);
   const int first = this->Size();
-  LargeVector<Ring> rings(n); // Nothing is added before all is found to be sound.
+  LargeVector<Ring> rings(n); // The mesh changes only if the whole surface is valid.
   const auto find = [&](std::size_t begin, std::size_t end)
   {
     std::vector<DirectedEdge> edges;
@@ -295,7 +295,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   {
     if (fault)
     {
-      std::rethrow_exception(fault); // The first one, whichever was found first.
+      std::rethrow_exception(fault); // First by index: does not depend on the executor.
     }
   }
   this->Position.resize(this->Position.size() + n);
@@ -373,7 +373,7 @@ void SurfaceMesh::Clear()
 
 namespace
 {
-/** Two zeros between the bits of a number of 21 bits, for a Morton code. */
+/** Insert two zeros between the bits of a 21-bit number, for a Morton code. */
 std::uint64_t SpreadBits(std::uint64_t x)
 {
   x &= 0x1fffff;
@@ -385,8 +385,7 @@ std::uint64_t SpreadBits(std::uint64_t x)
   return x;
 }
 
-/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at
- * `low`. */
+/** Return the Z-order (Morton) code of a position, with cells of side `cell` from `low`. */
 std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
 {
   const auto bits = [cell](float x, float from)

@@ -20,7 +20,7 @@ double SquaredDistanceToSegment(const VectorD& p, const VectorD& a, const Vector
 double SquaredDistanceOfSegments(
   const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
-  // Where the lines are nearest, if that is within both, else at an end.
+  // Nearest points of the two lines if they lie within both segments, else at an end.
   const VectorD first = b - a;
   const VectorD second = d - c;
   const double ff = SquaredLength(first);
@@ -44,7 +44,7 @@ double SquaredDistanceOfSegments(
 
 double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
 {
-  // Where the foot on the plane lies in the triangle it is nearest, else a point of an edge is.
+  // The projection on the plane if it lies in the triangle, else the nearest point of an edge.
   const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
   const double size = SquaredLength(normal);
   bool inside = size > 0.;

@@ -15,7 +15,7 @@ namespace volumic
 {
 namespace
 {
-/** So few triangles are not divided any further. Changes the time only. */
+/** Maximum number of triangles in a leaf. Affects the run time only. */
 constexpr int LeafSize = 4;
 
 double SquaredDistanceToBox(const Point& place, const Bounds& box)

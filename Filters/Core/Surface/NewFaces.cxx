@@ -13,28 +13,27 @@ namespace volumic
 {
 namespace
 {
-/** Room, in delta, on one side of a plane that tells two faces apart without a test of triangles. */
+/** Clearance, in delta, on one side of a plane beyond which two faces need no exact test. */
 constexpr float RoomBesidePlane = 0.01f;
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
-/** Twice the area, in delta squared, from which on a normal in floats is a face's. */
+/** Twice the least area, in delta squared, with a reliable normal in float. */
 constexpr float LeastArea = 1e-2f;
-/** Of the clearance: edges may be a little too long until the end of an iteration. */
+/** Factor of lambda: edges may exceed their bound until the end of an iteration. */
 constexpr float ReachShare = 1.1f;
 
-/** Times a length that was rounded: not less than it is. */
+/** Factor that makes a rounded length an upper bound. */
 constexpr float AboveRounding = 1.0001f;
 
-/** Vertices that one thread looks at at a time. */
+/** Vertices per task. */
 constexpr std::size_t TestedSpan = 512;
 
-/** A new face, as floats tell most others apart from it: by a box and a plane. */
+/** A new face with a bounding box and a plane in float, which exclude most intersections. */
 struct NewFace
 {
   NewFace(const MeshTriangle& face, float delta)
-    : Corners(face)
-    , Place(face.Corner[0])
-    , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
+    : Corners(face), Place(face.Corner[0]),
+      Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
   {
     const Vector normal =
       Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place);
@@ -43,8 +42,9 @@ struct NewFace
   }
 
   /**
-   * Whether another face, less a corner that both have, lies on one side of the plane, with some
-   * room; or, if they have an edge, is far from folded onto this one. They don't intersect then.
+   * Return whether two faces cannot intersect: the corners of the other face that are not shared
+   * lie on one side of the plane with some clearance, or the faces share an edge and are not
+   * folded.
    */
   bool IsClearOf(const NewFace& other, float room) const
   {
@@ -68,15 +68,14 @@ struct NewFace
       above = above && height > room;
       below = below && height < -room;
     }
-    return shared < 2 ? above || below
-                      : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
+    return shared < 2 ? above || below : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
   }
 
   const MeshTriangle& Corners;
   Vector Place;
   Box Bounds;
-  Vector Normal; ///< Unit.
-  bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
+  Vector Normal;  ///< Unit.
+  bool HasNormal; ///< False for slivers.
 };
 
 /** Return the faces of a star, as bits, both of whose neighbours are in a set of bits. */
@@ -85,8 +84,7 @@ unsigned FacesOf(const Ring& ring, unsigned neighbours)
   return neighbours & (neighbours >> 1 | (neighbours & 1u) << (ring.Count - 1));
 }
 
-bool Intersect(
-  const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
+bool Intersect(const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
 {
   return TrianglesIntersect(one, other, state.Sizing.Contact(one.Vertex[0]));
 }
@@ -108,7 +106,7 @@ bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& f
   return false;
 }
 
-/** Whether any of the new faces intersects the face (w, u, v) of the mesh. */
+/** Return whether any new face intersects the face (w, u, v) of the mesh. */
 bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
   const Box& bounds)
 {
@@ -145,14 +143,13 @@ bool NewFacesIntersect(
   {
     return true;
   }
-  // A face that intersects one of the new ones has a corner this near to the box of those.
+  // An intersecting face has a corner within this distance of the box of the new faces.
   float reach = 0.f;
   for (const MeshTriangle& face : faces)
   {
     for (const int v : face.Vertex)
     {
-      reach = std::max(
-        reach, state.Sizing.FurtherThan(v, ReachShare * SizingField::LambdaInDelta));
+      reach = std::max(reach, state.Sizing.FurtherThan(v, ReachShare * SizingField::LambdaInDelta));
     }
   }
   const Box visited = all.Grown(reach);
@@ -166,7 +163,7 @@ bool NewFacesIntersect(
       {
         return;
       }
-      // A face is tested from the smallest of its corners that are visited.
+      // Test a face at the smallest of its corners that are visited.
       const Ring& ring = mesh.Rings[w];
       unsigned tested = 0;
       for (int i = 0; i < ring.Count; ++i)
@@ -188,27 +185,26 @@ bool NewFacesIntersect(
 }
 namespace
 {
-/** Tests the faces whose first corner, by index, is a vertex. */
+/** Tests the faces whose smallest vertex is given. */
 class FacesOfMesh
 {
 public:
-  /** @param longest of all vertices: the longest edge about them */
+  /** @param longest longest edge of each vertex */
   FacesOfMesh(const SurfaceState& state, const LargeVector<float>& longest)
-    : State(state)
-    , Longest(longest)
+    : State(state), Longest(longest)
   {
   }
 
   /**
-   * Whether they intersect each other, or those of a vertex whose edges are shorter (of equals:
-   * before it), or of one not our own.
+   * Return whether the faces of v intersect each other, or those of a vertex w with shorter edges,
+   * or with equal ones and w < v.
    */
   bool Intersect(int v)
   {
     this->Faces.clear();
     this->News.clear();
-    this->VisitFaces(v,
-      [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
+    this->VisitFaces(
+      v, [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
     if (this->Faces.empty())
     {
       return false;
@@ -232,8 +228,8 @@ public:
         if (!intersect && w != v && visited.Contains(this->State.Mesh.Position[w]) &&
           this->IsBefore(w, v))
         {
-          this->VisitFaces(w,
-            [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
+          this->VisitFaces(
+            w, [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
         }
       });
     return intersect;
@@ -288,8 +284,8 @@ std::size_t CountIntersecting(const SurfaceState& state, Executor& executor)
         float squared = 0.f;
         for (int i = 0; i < ring.Count; ++i)
         {
-          squared = std::max(
-            squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
+          squared =
+            std::max(squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
         }
         longest[v] = std::sqrt(squared) * AboveRounding;
       }

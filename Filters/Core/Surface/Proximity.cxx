@@ -17,28 +17,27 @@ namespace volumic
 namespace
 {
 // Lengths in delta.
-/** Room between two stars that needs no test of their triangles. */
+/** Clearance of two stars above which their triangles are not tested. */
 constexpr float LeastRoom = 2e-3f;
-/** Room that the test of triangles looks for first, to spare some tests to come. */
+/** Clearance that the triangle test requires at first, so that later tests can be skipped. */
 constexpr float SomeRoom = 0.01f;
-/** Vertices that one thread examines at a time, as each may take long. */
+/** Vertices per task. */
 constexpr std::size_t TestedSpan = 64;
-/** Room along the normals that needs no look for more along the line between the vertices. */
+/** Clearance along the normals above which the line between the vertices is not tested. */
 constexpr float EnoughRoom = 0.02f;
-/** Slack of a vertex with nothing else in reach. */
+/** Clearance of a vertex without others in its search radius. */
 constexpr float ReachClearance = 0.1f;
-/** Pairs are kept while their vertices use up their slack: look a little further. */
+/** Search radius of pairs, which are kept until their vertices have used up their clearance. */
 constexpr float PairReach = SizingField::LambdaInDelta + ReachClearance;
 
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
-/** By what a squared reach is less, so that rounding can't make each of two pairs leave a test to
-    the other. */
+/** Margin of a squared search radius: one of two pairs must not leave a test to the other. */
 constexpr float RoundedReach = 0.999f;
-/** By what a room in floats must be more than the same in doubles. */
+/** Margin for rounding of a clearance in float instead of double. */
 constexpr float FloatRounding = 1.2f;
 
-/** Room between two stars along a unit direction, the first below; negative: none. */
+/** Return the clearance along a unit direction, the first star below; negative: overlap. */
 float RoomAlong(const StarLink& first, const StarLink& second, const Vector& direction)
 {
   const VectorLanes along = AllLanes(direction);
@@ -55,7 +54,7 @@ float RoomAlong(const StarLink& first, const StarLink& second, const Vector& dir
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
-/** The larger room along two directions. The stars must not have a common vertex. */
+/** Return the larger clearance along two directions. The stars must not have a common vertex. */
 float RoomBetween(const SurfaceState& state, const StarLink& first, const StarLink& second)
 {
   const Vector across = second.Place - first.Place;
@@ -70,11 +69,14 @@ float RoomBetween(const SurfaceState& state, const StarLink& first, const StarLi
     : std::max(room, RoomAlong(first, second, Normalized(across)));
 }
 
-/** Where the vertices of one star lie, seen from the faces of another, as bits of its faces. */
+/** Separates the faces of one star from those of another by their planes, as bits. */
 class FacesBeside
 {
 public:
-  /** @param from the star whose planes tell @param other the one whose faces are told apart */
+  /**
+   * @param from star with the planes
+   * @param other star whose faces are tested
+   */
   FacesBeside(const StarFaces& from, const StarFaces& other, float room)
     : From(from), Other(other), Room(room), WithCentre(other.Matching(from.Centre))
   {
@@ -85,9 +87,8 @@ public:
   }
 
   /**
-   * The faces of the other star which, less a corner that they share with face i, lie on one side
-   * of its plane, by more than the room; or, if they share an edge with it, are far from folded
-   * onto it. They do not intersect it.
+   * Return the faces of the other star that cannot intersect face i. Apart from a shared corner
+   * they lie on one side of its plane with the clearance, or they share an edge and are not folded.
    */
   unsigned Of(int i) const
   {
@@ -111,7 +112,7 @@ public:
     unsigned beside = 0;
     beside |= hasCentre || height > this->Room ? this->OfBothEnds(above) : 0;
     beside |= hasCentre || height < -this->Room ? this->OfBothEnds(below) : 0;
-    // Those that share an edge, or all corners.
+    // Faces that share an edge, or all corners.
     unsigned edges = this->OfBothEnds(shared);
     edges |= hasCentre ? shared | this->Other.Following(shared) : 0;
     beside &= ~edges;
@@ -133,11 +134,11 @@ private:
   const StarFaces& From;
   const StarFaces& Other;
   float Room;
-  unsigned WithCentre;           ///< Neighbours in the other star that are the centre of this one.
-  unsigned With[Ring::Capacity]; ///< The same for the neighbours of this one.
+  unsigned WithCentre;           ///< Neighbours in Other that are the centre of From.
+  unsigned With[Ring::Capacity]; ///< The same for the neighbours of From.
 };
 
-/** The faces of a star whose boxes come as near to that of face i of another as a margin. */
+/** Return the faces of a star whose boxes are within a margin of that of face i of another. */
 unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float margin)
 {
   const VectorLanes by(margin, margin, margin);
@@ -162,10 +163,7 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
   return has(f[0]) && has(f[1]) && has(f[2]);
 }
 
-/**
- * Two faces are found from up to nine pairs of their corners. Only the first pair, in order of
- * index, that an examination would look at counts.
- */
+/** Selects, of up to nine pairs of corners that find two faces, the first tested one. */
 class FirstPair
 {
 public:
@@ -176,7 +174,7 @@ public:
 
   bool IsFirstOf(const std::array<int, 3>& f, const std::array<int, 3>& g) const
   {
-    // No more than what the stars of any pair ask for, which are not all to be read here.
+    // Upper bound of the radii, so that the stars of these pairs need not be read.
     float most = 0.f;
     for (const int corner : { f[0], f[1], f[2], g[0], g[1], g[2] })
     {
@@ -213,7 +211,7 @@ private:
   int W;
 };
 
-/** Adds the faces that intersect. @return the room that the rest has for certain. */
+/** Append intersecting faces. Return the certain clearance of the others. */
 float TestStars(const SurfaceState& state, const StarFaces& first, const StarFaces& second,
   Proximity::Findings& found)
 {
@@ -223,12 +221,12 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
   const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
   std::array<unsigned, Ring::Capacity> firstBeside;
-  unsigned known = 0; // The faces of the second star for which it has been computed.
+  unsigned known = 0; // Faces of the second star with computed bits.
   float room = someRoom;
   for (int i = 0; i < first.Count; ++i)
   {
     unsigned near = FacesNear(first, i, second, room);
-    near &= v == second.Centre ? ~0u << i << 1 : ~0u; // Its own pairs once.
+    near &= v == second.Centre ? ~0u << i << 1 : ~0u; // Each pair of a star with itself once.
     near = near != 0 ? near & ~besideFirst.Of(i) : 0;
     for (; near != 0; near &= near - 1)
     {
@@ -250,7 +248,7 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       }
       const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      // Only the first pair reports the intersection; see Tight.
+      // Only the first pair reports the intersection.
       if (TrianglesIntersect(one, other, someRoom) && pair.IsFirstOf(f, g))
       {
         room = 0;
@@ -266,17 +264,16 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
   return room;
 }
 
-/** Examines vertices; what it keeps meanwhile is a thread's own. */
+/** Tests vertices, with the buffers of one thread. */
 class Search
 {
 public:
   Search(SurfaceState& state) : State(state) {}
 
-  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed.
-   */
+  /** Call visit(w, squared distance) for vertices within a radius and with an opposed cone. */
   template <typename Visitor>
   void VisitOpposed(int v, float radius, const Visitor& visit);
-  /** Sets NearOthers and Slack of a vertex, but for faces without room: see Findings::Tight. */
+  /** Set NearOthers and ClearanceAtTest of a vertex, except for Findings::Touching. */
   void Test(int v, Proximity::Findings& found);
 
 private:
@@ -288,8 +285,8 @@ private:
 
   SurfaceState& State;
   std::vector<int> Near = std::vector<int>(GroupRoom);
-  std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
-  /** The star of the examined vertex, built on first use: most vertices do not need it. */
+  std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Squared distances.
+  /** Star of the tested vertex, built on first use: most vertices do not need it. */
   std::vector<StarFaces> Own;
 };
 
@@ -327,7 +324,7 @@ std::size_t Search::FindNear(const Vector& place, float radius)
     lanes.Store(distance);
     const unsigned beyond =
       LessBits(most, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
-    for (int k = 0; k < Lanes::Count; ++k) // Without branches: vertices beyond are overwritten.
+    for (int k = 0; k < Lanes::Count; ++k) // Branchless: vertices beyond are overwritten.
     {
       near[count] = four[k];
       squared[count] = distance[k];
@@ -404,7 +401,7 @@ void Search::Test(int v, Proximity::Findings& found)
       const StarFaces& first = star();
       const bool share = first.Shares(w, mesh.Rings[w]);
       const bool tests = v < w || !(state.Marks[w] & IsListed) ||
-        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w); // Which does not look as far.
+        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w); // Its own radius is smaller.
       if (share && !tests)
       {
         slack = std::min(slack, SomeRoom * delta);
@@ -444,7 +441,7 @@ void Proximity::Test(SurfaceState& state, const std::vector<int>& vertices, Exec
   {
     state.Marks[v] |= IsListed;
   }
-  // Pairs of vertices that are not examined anew stay.
+  // Keep the pairs of vertices that are not tested.
   this->AllPairs.erase(std::remove_if(this->AllPairs.begin(), this->AllPairs.end(),
                          [&state](const ClosePair& pair)
                          {
@@ -481,7 +478,7 @@ void Proximity::Test(SurfaceState& state, const std::vector<int>& vertices, Exec
     this->AllPairs.insert(this->AllPairs.end(), found.Pairs.begin(), found.Pairs.end());
     this->AllIntersections.insert(
       this->AllIntersections.end(), found.Intersections.begin(), found.Intersections.end());
-    // A pair of faces is tested once, but all its corners must know that it has no room.
+    // Each pair of faces is tested once. Clear the clearance of all its corners.
     for (const int v : found.Tight)
     {
       state.ClearanceAtTest[v] = 0;

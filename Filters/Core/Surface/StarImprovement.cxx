@@ -12,17 +12,17 @@ namespace volumic
 {
 namespace
 {
-/** Longest edge of a bad star that is worth a collapse, though legal, in delta. */
+/** Longest edge of a bad star that may be collapsed although it is legal, in delta. */
 constexpr float ShortEdge = 1.5f;
-/** What an edit must gain, so that none is undone by the next. */
+/** Least gain of an edit, so that the next one does not undo it. */
 constexpr float Gain = 0.01f;
-/** Way off the isopotential, in delta, that a slide may add. */
+/** Additional distance from the isosurface, in delta, that a slide may cause. */
 constexpr float Stray = 0.02f;
-/** Longest step onto the isopotential, in delta. */
+/** Longest step onto the isosurface, in delta. */
 constexpr float LongestSnap = 0.15f;
 /** Longest step that separates two vertices, in delta. */
 constexpr float LongestPush = 0.25f;
-/** Least push that is worth a step, of ScoreMargin delta. */
+/** Least push that is applied, in ScoreMargin delta. */
 constexpr float LeastPush = 1e-3f;
 }
 
@@ -59,7 +59,7 @@ bool StarImprovement::CollapseEdge(int u, int v, float before)
     const int c = this->MayCut && before < 0 ? collapse.ThirdCommonNeighbour(mesh) : -1;
     return c >= 0 && this->Editor.Cut(u, v, c).IsDone;
   }
-  // Along the edge, and between it and the middle of the new star.
+  // Try positions on the edge, and between it and the mean of the new link.
   const Vector p = mesh.Position[u];
   const Vector q = mesh.Position[v];
   Vector sum;
@@ -124,8 +124,7 @@ bool StarImprovement::CollapseEdges(int v)
         return true;
       }
     }
-    if (this->CollapseEdge(
-          v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
+    if (this->CollapseEdge(v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
     {
       return true;
     }
@@ -145,12 +144,12 @@ bool StarImprovement::FlipEdges(int v)
     const Vector& q = mesh.Position[w];
     const Vector& a = mesh.Position[ring.Next(i)];
     const Vector& b = mesh.Position[ring.Previous(i)];
-    const float before = std::min({ EdgeScore(sizing, v, w, SquaredDistance(p, q)),
-      FaceScore(p, q, a), FaceScore(q, p, b) });
-    const float after = std::min(
-      { EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
-      FaceScore(a, p, b), FaceScore(b, q, a) });
-    if (before < GoodStar && after > before + Gain && 
+    const float before = std::min(
+      { EdgeScore(sizing, v, w, SquaredDistance(p, q)), FaceScore(p, q, a), FaceScore(q, p, b) });
+    const float after =
+      std::min({ EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
+        FaceScore(a, p, b), FaceScore(b, q, a) });
+    if (before < GoodStar && after > before + Gain &&
       this->Editor.Flip(v, w, EditTolerance::Smooth))
     {
       return true;
@@ -179,7 +178,7 @@ bool StarImprovement::Slide(int v)
       static const float cosine[8] = { 1, 0.70710678f, 0, -0.70710678f, -1, -0.70710678f, 0,
         0.70710678f };
       const Vector slide = first * cosine[k] + second * cosine[(k + 6) % 8];
-      // A bad star in a crease has no plane to slide in.
+      // A bad star in a crease has no tangent plane.
       for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
       {
         const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Sizing.At(v));

@@ -10,9 +10,9 @@
 namespace volumic
 {
 /**
- * How far a vertex is looked about for others. Where a surface is graded that is further than where
- * all are alike, as others may be larger: but faces that intersect have corners that are as near as
- * the largest delta of all their corners makes it, so most pairs need no look.
+ * Search radius about a vertex. On a graded surface it exceeds that of a uniform one, as
+ * neighbouring faces may be larger. Intersecting faces have corners within the radius for the
+ * largest delta of all their corners, so most pairs can be skipped.
  */
 class StarReach
 {
@@ -22,7 +22,7 @@ public:
       Own(state.Sizing.IsGraded() ? this->Of(v) : this->Most)
   {
   }
-  /** The reach of the pair with w, at this distance. */
+  /** Return the search radius of the pair with w at this distance. */
   float With(int w, float squared) const
   {
     const bool isNear = squared <= this->Own * this->Own;
@@ -31,7 +31,7 @@ public:
   }
 
 private:
-  /** What the largest delta of a star asks for. */
+  /** Return the search radius for the largest delta of a star. */
   float Of(int v) const
   {
     const Ring& ring = this->State.Mesh.Rings[v];

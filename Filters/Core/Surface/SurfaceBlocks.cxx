@@ -14,14 +14,13 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
+/** Vertices per task. */
 constexpr std::size_t VertexSpan = 8192;
 /**
- * Places for new vertices that a block gets at least, and those that all blocks with vertices
- * share, as a small surface grows fast; for how many of its own a block gets one more, and how many
- * for each that its last visit took: a surface that grows takes more each time. Where there was
- * none yet it is guessed for how many vertices one was taken. And how many for each vertex with an
- * edge that is too long: where only some of them are split needles come of what is left.
+ * Numbers of free slots: minimum per block with vertices, and total shared by all such blocks, as a
+ * small surface grows fast. The others are ratios: vertices per slot, slots per slot used in the
+ * last pass, vertices per slot used if there was no pass yet, slots per vertex with a long edge.
+ * Too few slots for long edges would make needles.
  */
 constexpr int FewPlaces = 40;
 constexpr int SharedPlaces = 4096;
@@ -29,15 +28,15 @@ constexpr int VerticesPerPlace = 8;
 constexpr int PlacesPerTaken = 2;
 constexpr int VerticesPerTaken = 12;
 constexpr int PlacesPerLong = 16;
-/** How far out of its block a vertex may be before it must be another block's; in delta. */
+/** Distance from its block, in delta, at which a vertex is assigned to another block. */
 constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
 
-// See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
+// In delta, see SurfaceBlocks. Both ends of an edge may move by half a delta at once.
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
 static_assert(LongestBridgeEdge * SizingField::LongestEdgeInDelta <= LongestEdge &&
     SizingField::DivisionFactor * SizingField::LongestEdgeInDelta <= LongestEdge,
   "a merge, and a division that keeps an old edge, make none longer");
-/** As far as Proximity looks, about a vertex that is slow. */
+/** Search radius of Proximity for a slow vertex. */
 constexpr float Reach = SizingField::ReachInDelta + Proximity::FurtherReachInDelta;
 static_assert(SurfaceBlocks::EditedInDelta + LongestEdge <= SurfaceBlocks::WrittenInDelta,
   "an edit writes as far as the edges of the stars that it may begin at");
@@ -52,7 +51,7 @@ static_assert(
 
 constexpr int NoBlock = -1;
 
-/** How many more vertices a block may get that has so many, of which some have long edges. */
+/** Return the number of free slots for a block. */
 int RoomFor(int vertices, int taken, int withLongEdge)
 {
   const int more =
@@ -60,7 +59,7 @@ int RoomFor(int vertices, int taken, int withLongEdge)
   return vertices > 0 ? FewPlaces + more : 0;
 }
 
-/** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
+/** Return 0, 2, 1, 4, 3, ...: even indices before their odd neighbours. */
 std::vector<int> EvenFirst(int count)
 {
   std::vector<int> order;
@@ -111,7 +110,7 @@ std::array<int, 3> SurfaceBlocks::IjkOf(const Vector& position) const
   for (int axis = 0; axis < 3; ++axis)
   {
     const float place = along[axis] / this->TheFrame.Side[axis];
-    places[axis] = static_cast<int>( // Which rounds down what is not negative.
+    places[axis] = static_cast<int>( // Rounds down.
       std::clamp(place, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
   }
   return places;
@@ -250,7 +249,7 @@ void SurfaceBlocks::FindOrder()
       }
     }
   }
-  // Slab by slab, which touches memory less often than a colour after the other.
+  // Slab by slab, which needs less memory traffic than colour by colour.
   this->Passes = std::make_unique<BlockSchedule>(
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }

@@ -17,7 +17,7 @@ namespace
 {
 /** Least cosine between the normals of a face before and after an edit: 45 degrees. */
 constexpr double SmoothCosine = 0.7;
-/** The same where an edit only must not flip a face's orientation, with some to spare. */
+/** The same if an edit must only keep the orientation of a face, with a margin. */
 constexpr double LooseCosine = 0.1;
 
 double LeastCosine(EditTolerance tolerance)
@@ -83,7 +83,7 @@ Edit SurfaceEditor::Split(int u, int v)
   const int m = split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Room());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
-  // What is not being moved has an old one.
+  // Only vertices being moved have a valid previous position.
   const auto before = [&s](int w)
   { return s.Marks[w] & IsWorking ? s.PreviousPosition[w] : s.Mesh.Position[w]; };
   s.PreviousPosition[m] = (before(u) + before(v)) * 0.5f;
@@ -144,8 +144,7 @@ Edit SurfaceEditor::CollapseInto(
   const std::size_t first = this->Log.size();
   if (s.Sizing.IsGraded())
   {
-    // As on the edge there; else sizes would be steeper than the gradation, about an end that
-    // moves.
+    // Interpolate along the edge, to keep the gradation if an end moves.
     const float toKept = Length(position - s.Mesh.Position[kept]);
     const float toRemoved = Length(position - s.Mesh.Position[removed]);
     const float length = toKept + toRemoved;
@@ -200,7 +199,7 @@ bool SurfaceEditor::StaysSmooth(
   const Vector newB(Normalized(AreaNormal(second)));
   const Vector mean = Normalized(oldA + oldB);
   constexpr float least = static_cast<float>(SmoothCosine);
-  // Slivers have normals that say little; what counts is that the new pair is smooth.
+  // Only the new pair must be smooth: normals of slivers are unreliable.
   return Dot(newA, newB) >= least && Dot(newA, mean) >= least && Dot(newB, mean) >= least;
 }
 
@@ -239,7 +238,7 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   for (int w : { u, v, flip.A, flip.B })
   {
     this->Log.push_back(w);
-    if (!smooth) // Else hardly anything has changed: no reason to activate anyone.
+    if (!smooth) // A smooth flip hardly changes the surface.
     {
       s.Activate(w);
     }
@@ -286,7 +285,7 @@ Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
     const MeshTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
     MeshTriangle face = old;
     face.Corner[0] = VectorD(position);
-    // What is too long already may stay so if it gets shorter.
+    // An edge that is too long may stay so if it gets shorter.
     const Vector& end = s.Mesh.Position[ring.Item[i]];
     const float squared = SquaredDistance(position, end);
     const float longest = s.Sizing.LongestEdge(v, ring.Item[i]);

@@ -82,7 +82,7 @@ int SurfaceOptimization::ImproveAll(float good, bool mayCut)
       if (now < good && !StarImprovement(s, this->Editor, this->SnapTo, mayCut).Improve(v) &&
         now < BadStar)
       {
-        again.push_back(v); // What is edited next to it may help.
+        again.push_back(v); // An edit of a neighbour may help.
       }
     }
     const std::vector<int>& changed = this->Editor.Changed();
@@ -90,7 +90,7 @@ int SurfaceOptimization::ImproveAll(float good, bool mayCut)
     SortUnique(again);
     list.swap(again);
   }
-  // Other stars stay good: they score as before until they are changed.
+  // Scores of other stars do not change until these are edited.
   poor.insert(poor.end(), this->Editor.Changed().begin(), this->Editor.Changed().end());
   SortUnique(poor);
   std::vector<int> within;
@@ -104,16 +104,15 @@ void SurfaceOptimization::Run(const std::vector<int>& vertices)
 {
   this->Within = vertices;
   this->FirstNew = this->EndOfNew();
-  // A collapse may bring together what is far apart on the surface, and what is pushed apart may
-  // get ill-shaped faces.
+  // A collapse may violate the clearance, and a push may make ill-shaped faces.
   this->SeparateAll();
   this->ImproveAll(GoodStar, false);
   this->SeparateAll();
-  // What could not be mended before may be now; if not, a cycle of three stands in the way.
+  // Retry the remaining stars. If this fails, a 3-cycle blocks them.
   this->ImproveAll(BadStar, false);
   if (this->ImproveAll(0.f, this->TopologyChanges) > 0)
   {
-    this->SeparateAll(); // The two sides of a cut are near each other.
+    this->SeparateAll(); // Both sides of a cut are near each other.
     this->ImproveAll(BadStar, this->TopologyChanges);
   }
 }

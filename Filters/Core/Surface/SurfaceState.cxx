@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time: 20 microseconds. */
+/** Vertices per task: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
 }
@@ -59,7 +59,7 @@ void SurfaceState::ForgetMotion()
 
 void SurfaceState::Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
 {
-  // What means nothing between visits lends its memory.
+  // Properties that are used only within passes serve as buffers.
   const auto swapSpares = [&]
   {
     this->PreviousPosition.AsVector().swap(spares.Spare<Vector>::Values);
@@ -173,7 +173,7 @@ void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& execu
 
 SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexRoom* room)
 {
-  // The ring of a removed vertex is kept aside as it is emptied; -1 in Component marks visits.
+  // The ring is copied, as removal empties it. Component is -1 for visited vertices.
   std::vector<int> stack(1, v);
   std::int64_t ends = 0;
   this->Component[v] = -1;
@@ -196,7 +196,7 @@ SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexRoom
     this->RemoveVertex(w);
     this->Mesh.RemoveVertex(w, room);
   }
-  // V - E + F with 2 E = 3 F, which is the sum of the valences.
+  // V - E + F with 2 E = 3 F, where 2 E is the sum of the valences.
   const int vertices = static_cast<int>(stack.size());
   return { vertices, vertices - static_cast<int>(ends / 6) };
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The edits of SurfaceEditor that change the topology: the merge and the cut.
+// The edits of SurfaceEditor that change the topology: merge and cut.
 
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/StarMerge.h"
@@ -17,10 +17,10 @@ namespace volumic
 {
 namespace
 {
-/** How far each copy of a cut's corners goes towards the rest of its star, of the way there. */
+/** Move of each corner of a cut, as a fraction of the way to the mean of its other neighbours. */
 constexpr float DrawnApart = 0.25f;
 
-/** A cut that can be undone, as long as nothing else has been edited. */
+/** A cut that can be undone until the next edit. */
 class TriedCut
 {
 public:
@@ -46,10 +46,10 @@ public:
     this->All = { cut.A, cut.B, cut.C, copy[0], copy[1], copy[2] };
   }
 
-  /** The corners of one side, then those of the other. */
+  /** Return the corners of one side, then those of the other. */
   const std::array<int, 6>& Corners() const { return this->All; }
 
-  /** Each corner goes a little towards the rest of its own star. */
+  /** Move each corner towards the rest of its star. */
   void DrawApart()
   {
     const SurfaceMesh& mesh = this->State.Mesh;
@@ -74,7 +74,7 @@ public:
     }
   }
 
-  /** Adds the faces about all corners. */
+  /** Append the faces of all corners. */
   void AddFaces(std::vector<MeshTriangle>& faces) const
   {
     const SurfaceMesh& mesh = this->State.Mesh;
@@ -82,7 +82,7 @@ public:
     {
       const int* side = &this->All[n / 3 * 3];
       const int* own = &this->All[n];
-      // A face with several corners of the side is taken from the first of them only.
+      // Take a face with several corners of the side from the first of them only.
       const auto isEarlier = [&](int y) { return std::find(side, own, y) != own; };
       const Ring& ring = mesh.Rings[*own];
       for (int i = 0; i < ring.Count; ++i)
@@ -107,7 +107,7 @@ public:
     }
     if (this->Room)
     {
-      this->Room->Next -= 3; // Tried often, it would take all of it.
+      this->Room->Next -= 3; // Rejected cuts would use up all slots.
     }
     for (const auto& entry : this->Saved)
     {
@@ -125,7 +125,7 @@ private:
   std::array<int, 3> Corner;
   Vector Place[3];
   std::array<int, 6> All;
-  std::vector<std::pair<int, Ring>> Saved; ///< All that the cut writes to.
+  std::vector<std::pair<int, Ring>> Saved; ///< All rings that the cut changes.
 };
 }
 
