@@ -124,11 +124,11 @@ TEST(SurfaceMesh, HasRoomBetweenItsVertices)
   EXPECT_FALSE(mesh.IsAlive(4) || mesh.IsAlive(5));
   EXPECT_EQ(SquaredDistance(mesh.Position[6], fifth), 0.f);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  VertexRoom room = { 4, 6 };
-  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &room), 4);
-  EXPECT_TRUE(room.Has(1));
-  EXPECT_FALSE(room.Has(2));
-  mesh.Count(room);
+  VertexSlots slots = { 4, 6 };
+  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &slots), 4);
+  EXPECT_TRUE(slots.Has(1));
+  EXPECT_FALSE(slots.Has(2));
+  mesh.Count(slots);
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   mesh.Reorder(SpaceFillingOrder(mesh, 1.));

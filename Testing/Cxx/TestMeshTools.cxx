@@ -98,7 +98,7 @@ TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
   EXPECT_GT(all, 1000u);
 }
 
-TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
+TEST(EnclosingComponents, AreThoseThatEncloseAPlaceButItsOwn)
 {
   std::vector<IndexedSurface> nested;
   for (const double size : { 4., 3., 2. })
@@ -121,8 +121,8 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
     { -9, 0.1, 0.1 }, { 0, 5, 0 } };
   using Lists = std::vector<std::vector<int>>;
   Executor threads(3);
-  EXPECT_EQ(ComponentsAbout(places, {}, nested.size(), facesOf, threads),
+  EXPECT_EQ(EnclosingComponents(places, {}, nested.size(), facesOf, threads),
     (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
-  EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
+  EXPECT_EQ(EnclosingComponents(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
 }

@@ -135,8 +135,8 @@ TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const int before = state.Mesh.NumberOfVertices();
   BlockPass visit = blocks.Open(1);
-  visit.Share.Region = visit.Share.Region.Grown(1000.f);
-  SurfaceEditor editor(state, &visit.Share);
+  visit.Context.Region = visit.Context.Region.Grown(1000.f);
+  SurfaceEditor editor(state, &visit.Context);
   const int end = visit.End();
   const int v = visit.First;
   const Edit split = editor.Split(v, state.Mesh.Rings[v].Item[0]);
@@ -163,16 +163,16 @@ TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
   const auto takeAll = [&]
   {
     BlockPass visit = blocks.Open(1);
-    const int size = visit.Share.Room.End - visit.Share.Room.Next;
-    visit.Share.Room.Next = visit.Share.Room.End; // As if edits had made and removed so many.
+    const int size = visit.Context.Slots.End - visit.Context.Slots.Next;
+    visit.Context.Slots.Next = visit.Context.Slots.End; // As if edits had made and removed so many.
     blocks.Close(std::move(visit));
     return size;
   };
   const int first = takeAll();
   EXPECT_GT(first, 0);
   BlockPass visit = blocks.Open(1);
-  SurfaceEditor editor(state, &visit.Share);
-  EXPECT_FALSE(visit.Share.Room.Has(1));
+  SurfaceEditor editor(state, &visit.Context);
+  EXPECT_FALSE(visit.Context.Slots.Has(1));
   EXPECT_FALSE(editor.Split(visit.First, state.Mesh.Rings[visit.First].Item[0])) << "there is none";
   blocks.Close(std::move(visit));
   blocks.Prepare(Thread);
@@ -187,7 +187,7 @@ TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   BlockPass visit = blocks.Open(1);
-  SurfaceEditor editor(state, &visit.Share);
+  SurfaceEditor editor(state, &visit.Context);
   const float end = blocks.BoxOf(1).High.X;
   int beyond = 0;
   int within = 0;

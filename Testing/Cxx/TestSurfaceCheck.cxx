@@ -47,7 +47,7 @@ TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
   {
     IndexedSurface surface = Ball();
     surface.Triangles[7][1] = corner;
-    EXPECT_TRUE(Has(ErrorOf(surface), "triangle 7 with point " + std::to_string(corner)));
+    EXPECT_TRUE(Has(ErrorOf(surface), "triangle 7 has point " + std::to_string(corner)));
   }
   for (const double x : { std::nan(""), HUGE_VAL, -HUGE_VAL })
   {
@@ -63,7 +63,7 @@ TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
   {
     IndexedSurface surface = Ball();
     surface.Triangles[4][k] = surface.Triangles[4][(k + 1) % 3];
-    EXPECT_TRUE(Has(ErrorOf(surface), "degenerate triangle (number 4"));
+    EXPECT_TRUE(Has(ErrorOf(surface), "degenerate triangle: triangle 4 uses a point twice"));
   }
 }
 
@@ -71,7 +71,7 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
 {
   IndexedSurface open = Ball();
   open.Triangles.erase(open.Triangles.begin() + 3);
-  EXPECT_TRUE(Has(ErrorOf(open), "is open: 3 edges"));
+  EXPECT_TRUE(Has(ErrorOf(open), "is not closed: 3 edges"));
   // Two tetrahedra that share an edge, though no triangle: every edge else has two triangles.
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
@@ -81,7 +81,7 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
   EXPECT_TRUE(Has(ErrorOf(hinge), "1 edges have more than two triangles"));
   IndexedSurface twisted = Ball();
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  EXPECT_TRUE(Has(ErrorOf(twisted), "is not oriented: 3 edges"));
+  EXPECT_TRUE(Has(ErrorOf(twisted), "is not consistently oriented: 3 edges"));
 }
 
 TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
@@ -97,7 +97,7 @@ TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
     }
   }
   surface.Points[9] = { 5, 0, 0 };
-  EXPECT_TRUE(Has(ErrorOf(surface), "at 1 points several fans of triangles touch"));
+  EXPECT_TRUE(Has(ErrorOf(surface), "1 points join several triangle fans"));
 }
 
 TEST(SurfaceCheck, RefusesWhatIsInsideOutOrEnclosesNothing)

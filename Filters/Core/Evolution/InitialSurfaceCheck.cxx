@@ -115,7 +115,7 @@ bool FitsRings(const IndexedSurface& surface)
 /** Whether some cell of the size of a triangle has so many points that a search is too slow. */
 bool IsTooDense(const IndexedSurface& surface, double delta)
 {
-  const double cell = SizingField::ReachInDelta * delta;
+  const double cell = SizingField::SearchRadiusInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {

@@ -78,7 +78,7 @@ constexpr float Clear = 1.9f;
 /** Two triangles that intersect, one of them about v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
 {
-  const float least = state.Sizing.SmallestReach();
+  const float least = state.Sizing.SmallestSearchRadius();
   if (!state.Sizing.IsGraded())
   {
     return least;
@@ -93,8 +93,8 @@ float ReachAbout(const SurfaceState& state, int v)
     squared = std::max({ squared, SquaredDistance(mesh.Position[v], p),
       SquaredDistance(p, mesh.Position[ring.Next(i)]) });
   }
-  return std::max(
-    least, std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
+  return std::max(least,
+    std::sqrt(squared) * (SizingField::SearchRadiusInDelta / SizingField::LongestEdgeInDelta));
 }
 
 /** The cover of lost voxels: where the distance to the nearest one, less a radius, is zero. */
@@ -242,9 +242,9 @@ private:
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
     const SizingField& sizing = this->State.Sizing;
     const float delta = sizing.OfLevel();
-    const float more = Clear * delta - sizing.SmallestReach();
+    const float more = Clear * delta - sizing.SmallestSearchRadius();
     float room = static_cast<float>(0.5 * this->Lattice.Pitch());
-    this->State.Grid.Visit(place, sizing.LargestReach() + more + room,
+    this->State.Grid.Visit(place, sizing.LargestSearchRadius() + more + room,
       [&](int v)
       {
         const float far = Length(place - this->State.Mesh.Position[v]);

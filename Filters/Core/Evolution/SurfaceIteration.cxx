@@ -37,7 +37,7 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const Field* evidence,
   bool topologyChanges, Executor& threads)
   : State(state), Visit(visit), Threads(threads),
-    Edits(state, evidence, topologyChanges, &visit.Share)
+    Edits(state, evidence, topologyChanges, &visit.Context)
 {
   SurfaceState& s = this->State;
   this->CollectActive();
@@ -58,7 +58,7 @@ SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const 
   this->Near.Test(s, this->DirtyVertices, threads);
   this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
-  this->Labelled = visit.Share.Counts;
+  this->Labelled = visit.Context.Counts;
 }
 
 SurfaceIteration::~SurfaceIteration()
@@ -282,7 +282,7 @@ void SurfaceIteration::WatchComponents()
   // A component may become a small one without any change of topology. After a merge a small cavity
   // may be a part of the main component, and must not be judged as the cavity it was: labels are
   // made afresh before anything is deleted.
-  EditContext& share = this->Visit.Share;
+  EditContext& share = this->Visit.Context;
   const EditCounts& then = this->Labelled;
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
     share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
@@ -309,9 +309,9 @@ double SurfaceIteration::KineticEnergy() const
 HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  EditContext& share = this->Visit.Share;
+  EditContext& share = this->Visit.Context;
   const EditCounts counts = share.Counts;
-  const int added = share.Room.Added;
+  const int added = share.Slots.Added;
   const int characteristic = share.EulerCharacteristic;
   HistoryRow row;
   this->CollectActive();
@@ -330,7 +330,7 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
     { return !s.Mesh.IsAlive(v) || this->Visit.Written.Contains(s.Mesh.Position[v]); }));
 
   row.Add(share.Counts - counts);
-  row.Vertices = share.Room.Added - added;
+  row.Vertices = share.Slots.Added - added;
   row.EulerCharacteristic = share.EulerCharacteristic - characteristic;
   row.KineticEnergy = this->KineticEnergy();
   return row;

@@ -25,7 +25,7 @@ struct CycleCut
   /** Return whether the vertices are pairwise neighbours and neither triangle is a face. */
   bool IsLegal(const SurfaceMesh& mesh) const;
   /** Return the copies of A, B and C. The caps are (A, C, B) and (A', B', C'). */
-  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

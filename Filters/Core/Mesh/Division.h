@@ -54,8 +54,8 @@ struct DivisionNumbers
   LargeVector<int> FirstFace;
   int Faces = 0; ///< Total number.
   /** By vertex: kept edges before those whose smaller end it is. Empty: none is kept. */
-  LargeVector<int> FirstMiddle;
-  int Middles = 0;
+  LargeVector<int> FirstMidpoint;
+  int Midpoints = 0;
 };
 
 DivisionNumbers NumberForDivision(

@@ -39,7 +39,7 @@ int EdgeCollapse::ThirdCommonNeighbour(const SurfaceMesh& mesh) const
   return best;
 }
 
-void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   const Ring old = mesh.Rings[this->Kept];
   const Ring& other = mesh.Rings[this->Removed];
@@ -70,6 +70,6 @@ void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexRoom* room) const
   mesh.Rings[a].Remove(this->Removed);
   mesh.Rings[b].Remove(this->Removed);
   mesh.Rings[this->Kept] = ring;
-  mesh.RemoveVertex(this->Removed, room);
+  mesh.RemoveVertex(this->Removed, slots);
 }
 }

@@ -24,7 +24,7 @@ struct EdgeCollapse
    */
   int ThirdCommonNeighbour(const SurfaceMesh& mesh) const;
   /** Apply the collapse. The caller sets the position of Kept. */
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

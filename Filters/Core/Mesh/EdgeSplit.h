@@ -19,7 +19,7 @@ struct EdgeSplit
 
   bool IsLegal(const SurfaceMesh& mesh) const;
   /** Return the new vertex. */
-  int Apply(SurfaceMesh& mesh, const Vector& position, VertexRoom* room = nullptr) const;
+  int Apply(SurfaceMesh& mesh, const Vector& position, VertexSlots* slots = nullptr) const;
 };
 }
 

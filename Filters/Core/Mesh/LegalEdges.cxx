@@ -36,8 +36,8 @@ void SplitLong(SurfaceMesh& mesh, float longest)
 }
 
 /** Return whether the faces of `end` without `other` stay valid if `end` moves. */
-bool KeepFaces(
-  const SurfaceMesh& mesh, int end, int other, const Vector& place, float leastArea, float longest)
+bool KeepFaces(const SurfaceMesh& mesh, int end, int other, const Vector& position, float leastArea,
+  float longest)
 {
   const Ring& ring = mesh.Rings[end];
   const Vector from = mesh.Position[end];
@@ -52,9 +52,9 @@ bool KeepFaces(
     const Vector p = mesh.Position[b];
     const Vector q = mesh.Position[c];
     const Vector before = Cross(p - from, q - from);
-    const Vector after = Cross(p - place, q - place);
+    const Vector after = Cross(p - position, q - position);
     const float size = Length(after);
-    if (SquaredDistance(place, p) > longest * longest || size < 2.f * leastArea ||
+    if (SquaredDistance(position, p) > longest * longest || size < 2.f * leastArea ||
       Dot(before, after) < LeastCosine * Length(before) * size)
     {
       return false;
@@ -93,9 +93,9 @@ IndexedSurface WithLegalEdges(
   mesh.Append(surface, executor);
   SplitLong(mesh, longest);
   const float leastArea = LeastArea * shortest * shortest;
-  for (const float share : { 0.7f, 1.f }) // Shortest edges first.
+  for (const float factor : { 0.7f, 1.f }) // Shortest edges first.
   {
-    CollapseShort(mesh, share * shortest, leastArea, longest);
+    CollapseShort(mesh, factor * shortest, leastArea, longest);
   }
   return mesh.ToIndexed(executor);
 }

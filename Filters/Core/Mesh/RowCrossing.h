@@ -32,12 +32,13 @@ struct RowCrossing
   static RowCrossing Of(const Point& a, const Point& b, const Point& c, double y, double z)
   {
     RowCrossing crossing;
-    crossing.Winding = Under(a, b, y, z) + Under(b, c, y, z) + Under(c, a, y, z);
+    crossing.Winding = EdgeSign(a, b, y, z) + EdgeSign(b, c, y, z) + EdgeSign(c, a, y, z);
     if (crossing.Winding == 0)
     {
       return crossing;
     }
-    const double weight[3] = { Area(b, c, y, z), Area(c, a, y, z), Area(a, b, y, z) };
+    const double weight[3] = { TwiceArea(b, c, y, z), TwiceArea(c, a, y, z),
+      TwiceArea(a, b, y, z) };
     const double sum = weight[0] + weight[1] + weight[2];
     const double x[3] = { a[0], b[0], c[0] };
     for (int k = 0; k < 3; ++k)
@@ -54,7 +55,7 @@ private:
    * Return 1 if the edge passes above the line to the right, -1 if it does so to the left, else 0.
    * The view is along x, y points right and z up.
    */
-  static int Under(const Point& from, const Point& to, double y, double z)
+  static int EdgeSign(const Point& from, const Point& to, double y, double z)
   {
     const bool right = to[1] > y;
     if ((from[1] > y) == right)
@@ -71,7 +72,7 @@ private:
   }
 
   /** Return twice the signed area of the triangle that the edge and the line span, seen along x. */
-  static double Area(const Point& from, const Point& to, double y, double z)
+  static double TwiceArea(const Point& from, const Point& to, double y, double z)
   {
     return (to[1] - from[1]) * (z - from[2]) - (to[2] - from[2]) * (y - from[1]);
   }
@@ -113,11 +114,11 @@ struct RowGrid
 class SortedPoints
 {
 public:
-  explicit SortedPoints(const std::vector<Point>& places) : Places(places), Order(places.size())
+  explicit SortedPoints(const std::vector<Point>& points) : Points(points), Order(points.size())
   {
     std::iota(this->Order.begin(), this->Order.end(), 0);
     std::sort(this->Order.begin(), this->Order.end(),
-      [&](int a, int b) { return places[a][1] < places[b][1]; });
+      [&](int a, int b) { return points[a][1] < points[b][1]; });
   }
 
   /** Call visit(index) for the points with low <= y <= high. */
@@ -125,15 +126,15 @@ public:
   void Visit(double low, double high, const Visitor& visit) const
   {
     auto at = std::lower_bound(this->Order.begin(), this->Order.end(), low,
-      [this](int i, double y) { return this->Places[i][1] < y; });
-    for (; at != this->Order.end() && this->Places[*at][1] <= high; ++at)
+      [this](int i, double y) { return this->Points[i][1] < y; });
+    for (; at != this->Order.end() && this->Points[*at][1] <= high; ++at)
     {
       visit(*at);
     }
   }
 
 private:
-  const std::vector<Point>& Places;
+  const std::vector<Point>& Points;
   std::vector<int> Order;
 };
 
@@ -146,7 +147,7 @@ private:
  *   faces of a range of the n items
  */
 template <typename FacesOf>
-std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
+std::vector<std::vector<int>> EnclosingComponents(const std::vector<Point>& points,
   const std::vector<int>& own, std::size_t n, const FacesOf& facesOf, Executor& executor)
 {
   constexpr std::size_t spanSize = 8192;
@@ -166,7 +167,7 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
     }
     crossings.resize(count);
   };
-  const SortedPoints sorted(places);
+  const SortedPoints sorted(points);
   std::vector<std::vector<Crossing>> spans((n + spanSize - 1) / spanSize);
   ForSpans(executor, n, spanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
@@ -180,8 +181,9 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
             {
               if (own.empty() || own[i] != component)
               {
-                const RowCrossing where = RowCrossing::Of(a, b, c, places[i][1], places[i][2]);
-                if (where.Winding != 0 && where.X > places[i][0])
+                const RowCrossing rowCrossing =
+                  RowCrossing::Of(a, b, c, points[i][1], points[i][2]);
+                if (rowCrossing.Winding != 0 && rowCrossing.X > points[i][0])
                 {
                   spans[span].emplace_back(i, component);
                 }
@@ -192,12 +194,12 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
     });
   std::vector<Crossing> crossings = Joined(executor, spans);
   keepOdd(crossings);
-  std::vector<std::vector<int>> about(places.size());
+  std::vector<std::vector<int>> enclosing(points.size());
   for (const Crossing& crossing : crossings)
   {
-    about[crossing.first].push_back(crossing.second);
+    enclosing[crossing.first].push_back(crossing.second);
   }
-  return about;
+  return enclosing;
 }
 }
 

@@ -53,7 +53,7 @@ public:
     }
   }
 
-  bool Reaches(const TriangleTree::Node& node) const
+  bool Overlaps(const TriangleTree::Node& node) const
   {
     double middle = 0.;
     double half = this->Margin * Length(this->Normal);
@@ -94,7 +94,7 @@ double LargestCoordinate(const IndexedSurface& surface)
 }
 }
 
-int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionCounters* work)
+int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionCounters* counters)
 {
   const int count = static_cast<int>(surface.Triangles.size());
   double sum = 0.;
@@ -116,20 +116,20 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
     tree.Traverse(
       [&](const TriangleTree::Node& node)
       {
-        if (work)
+        if (counters)
         {
-          ++work->Boxes;
+          ++counters->Boxes;
         }
-        return node.LargestIndex > i && box.Reaches(node);
+        return node.LargestIndex > i && box.Overlaps(node);
       },
       [&](int j)
       {
         if (j > i)
         {
           found += TrianglesIntersect(triangle, RoundedTriangle(surface, j), tolerance);
-          if (work)
+          if (counters)
           {
-            ++work->Pairs;
+            ++counters->Pairs;
           }
         }
         return limit == 0 || found < limit;
@@ -149,7 +149,7 @@ std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSu
     const MeshTriangle triangle = RoundedTriangle(surface, i);
     const CandidateBox box(triangle, margin);
     bool isFound = false;
-    tree.Traverse([&](const TriangleTree::Node& node) { return box.Reaches(node); },
+    tree.Traverse([&](const TriangleTree::Node& node) { return box.Overlaps(node); },
       [&](int j)
       {
         MeshTriangle candidate = RoundedTriangle(other, j);

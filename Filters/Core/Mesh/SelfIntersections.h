@@ -25,7 +25,7 @@ struct IntersectionCounters
  * no limit).
  */
 int CountSelfIntersections(
-  const IndexedSurface& surface, int limit = 0, IntersectionCounters* work = nullptr);
+  const IndexedSurface& surface, int limit = 0, IntersectionCounters* counters = nullptr);
 
 /**
  * Return the indices, in ascending order, of the triangles that intersect another surface or come

@@ -194,14 +194,14 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   const Ring& facing = first ? this->SecondLink : this->FirstLink;
   for (std::size_t begin = 0; begin < count; ++begin)
   {
-    const int place = own(this->BridgeEdges[begin]);
-    if (place == own(this->BridgeEdges[(begin + count - 1) % count]))
+    const int index = own(this->BridgeEdges[begin]);
+    if (index == own(this->BridgeEdges[(begin + count - 1) % count]))
     {
       continue; // Not the first bridge edge of this link vertex.
     }
     int run[Ring::Capacity];
     int length = 0;
-    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == place; ++i)
+    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == index; ++i)
     {
       const BridgeEdge& edge = this->BridgeEdges[i % count];
       run[length++] = facing.Item[first ? edge.Second : edge.First];
@@ -211,7 +211,7 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
       std::reverse(run, run + length);
     }
     // Replace the centre by the run.
-    Ring& ring = mesh.Rings[link.Item[place]];
+    Ring& ring = mesh.Rings[link.Item[index]];
     const int at = ring.Find(centre);
     const Ring old = ring;
     ring.Count = 0;
@@ -230,11 +230,11 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   }
 }
 
-void StarMerge::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void StarMerge::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   this->InsertBridgeEdges(mesh, true);
   this->InsertBridgeEdges(mesh, false);
-  mesh.RemoveVertex(this->U, room);
-  mesh.RemoveVertex(this->V, room);
+  mesh.RemoveVertex(this->U, slots);
+  mesh.RemoveVertex(this->V, slots);
 }
 }

@@ -32,7 +32,7 @@ public:
   const std::vector<std::array<int, 3>>& Strip() const { return this->Triangles; }
   float SquaredLongestBridgeEdge() const { return this->SquaredLongest; }
 
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 
 private:
   struct BridgeEdge

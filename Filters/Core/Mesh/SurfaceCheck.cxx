@@ -27,7 +27,7 @@ void CheckIndices(const IndexedSurface& surface)
 {
   if (surface.Triangles.empty())
   {
-    ThrowInvalidSurface("is empty: it has no triangles. Give a closed triangle mesh.");
+    ThrowInvalidSurface("is empty. Provide a closed triangle mesh.");
   }
   const int n = static_cast<int>(surface.Points.size());
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
@@ -37,21 +37,22 @@ void CheckIndices(const IndexedSurface& surface)
     {
       if (corner < 0 || corner >= n)
       {
-        ThrowInvalidSurface(
-          "has triangle ", i, " with point ", corner, ", but there are ", n, " points.");
+        ThrowInvalidSurface("has an invalid index: triangle ", i, " has point ", corner,
+          ", but there are ", n, " points. Correct the triangles.");
       }
       for (double x : surface.Points[corner])
       {
         if (!std::isfinite(x))
         {
-          ThrowInvalidSurface("has a coordinate that is not finite at point ", corner, ".");
+          ThrowInvalidSurface(
+            "has a coordinate that is not finite at point ", corner, ". Correct the point.");
         }
       }
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
     {
-      ThrowInvalidSurface("has a degenerate triangle (number ", i,
-        " uses a point twice). Clean it first, for example with vtkCleanPolyData.");
+      ThrowInvalidSurface("has a degenerate triangle: triangle ", i,
+        " uses a point twice. Remove it, for example with vtkCleanPolyData.");
     }
   }
 }
@@ -83,20 +84,19 @@ void CheckEdges(const IndexedSurface& surface)
   }
   if (open > 0)
   {
-    ThrowInvalidSurface("is open: ", open,
-      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
-      "where triangles have points of their own at the same places, merge these with "
-      "vtkCleanPolyData.");
+    ThrowInvalidSurface("is not closed: ", open,
+      " edges have only one triangle. Fill its holes, for example with vtkFillHolesFilter, or "
+      "merge coincident points with vtkCleanPolyData.");
   }
   if (nonManifold > 0)
   {
-    ThrowInvalidSurface(
-      "is not manifold: ", nonManifold, " edges have more than two triangles. Clean it first.");
+    ThrowInvalidSurface("is not manifold: ", nonManifold,
+      " edges have more than two triangles. Remove surplus triangles.");
   }
   if (misoriented > 0)
   {
-    ThrowInvalidSurface("is not oriented: ", misoriented,
-      " edges have two triangles that disagree on their orientation. Orient it, for example with "
+    ThrowInvalidSurface("is not consistently oriented: ", misoriented,
+      " edges have two triangles of opposite orientation. Orient it, for example with "
       "vtkPolyDataNormals and ConsistencyOn.");
   }
 }
@@ -131,8 +131,8 @@ void CheckVertices(const IndexedSurface& surface)
   }
   if (pinched > 0)
   {
-    ThrowInvalidSurface("is not manifold: at ", pinched,
-      " points several fans of triangles touch. Give each fan a point of its own.");
+    ThrowInvalidSurface("is not manifold: ", pinched,
+      " points join several triangle fans. Duplicate these points, one for each fan.");
   }
 }
 
@@ -147,26 +147,26 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    ThrowInvalidSurface("is inside out: it encloses a volume of ", largest,
-      ". Reverse it, for example with vtkReverseSense.");
+    ThrowInvalidSurface(
+      "is inside out: its volume is ", largest, ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
   {
-    ThrowInvalidSurface("encloses no volume.");
+    ThrowInvalidSurface("encloses no volume. Provide a surface with a positive volume.");
   }
 }
 
 /** Return an interior point of a triangle that is not aligned with simple fractions. */
-Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
+Point PointIn(const IndexedSurface& surface, const Triangle& t)
 {
   constexpr double weights[3] = { 0.41421, 0.35425, 0.23154 }; // Their sum is 1.
-  Point place;
+  Point point;
   for (int k = 0; k < 3; ++k)
   {
-    place[k] = weights[0] * surface.Points[t[0]][k] + weights[1] * surface.Points[t[1]][k] +
+    point[k] = weights[0] * surface.Points[t[0]][k] + weights[1] * surface.Points[t[1]][k] +
       weights[2] * surface.Points[t[2]][k];
   }
-  return place;
+  return point;
 }
 
 /**
@@ -193,19 +193,19 @@ void CheckNesting(const IndexedSurface& surface)
     p = rotation.Apply(p);
   }
   const TriangleTree tree(rotated);
-  int wrong = 0;
+  int misoriented = 0;
   for (std::size_t c = 0; c < count; ++c)
   {
-    const int winding = tree.WindingAbout(PlaceIn(rotated, *first[c]),
+    const int winding = tree.WindingNumber(PointIn(rotated, *first[c]),
       [&](int t) { return features.ComponentOfTriangle[t] != static_cast<int>(c); });
     const bool isCavity = features.Components[c].Volume < 0.;
-    wrong += winding != (isCavity ? 1 : 0);
+    misoriented += winding != (isCavity ? 1 : 0);
   }
-  if (wrong > 0)
+  if (misoriented > 0)
   {
-    ThrowInvalidSurface("is not the boundary of a volume: ", wrong, " of its ", count,
-      " components face the wrong way. Those inside another one are cavities and must face inward, "
-      "those inside a cavity or outside of all must face outward.");
+    ThrowInvalidSurface("is not the boundary of a volume: ", misoriented, " of its ", count,
+      " components have the wrong orientation. Orient cavities inward, and components inside a "
+      "cavity or outside all others outward.");
   }
 }
 }
@@ -221,7 +221,7 @@ void CheckInitialSurface(const IndexedSurface& surface)
   if (pairs > 0)
   {
     ThrowInvalidSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
-      " pairs of triangles meet. Repair it before it is given.");
+      " pairs of triangles intersect. Repair it first.");
   }
   CheckNesting(surface);
 }

@@ -105,11 +105,11 @@ ComponentFeatures Finish(const Sums& sums)
   result.Volume = sums.Volume;
   result.Genus = (2 - (sums.Vertices - sums.Triangles / 2)) / 2;
   std::array<double, 3> centre{};
-  const bool solid = std::abs(sums.Volume) > FlatVolume * std::pow(sums.Area, 1.5);
+  const bool hasVolume = std::abs(sums.Volume) > FlatVolume * std::pow(sums.Area, 1.5);
   for (int k = 0; k < 3; ++k)
   {
-    centre[k] =
-      solid ? sums.First[k] / sums.Volume : (sums.Area > 0. ? sums.AreaMoment[k] / sums.Area : 0.);
+    centre[k] = hasVolume ? sums.First[k] / sums.Volume
+                          : (sums.Area > 0. ? sums.AreaMoment[k] / sums.Area : 0.);
     result.Centroid[k] = sums.Reference[k] + centre[k];
   }
   std::array<double, 6> second = sums.Second;
@@ -132,7 +132,7 @@ public:
   Components(const IndexedSurface& surface, Executor& executor);
 
   LargeVector<int> OfTriangle;
-  std::vector<Sums> Begun; ///< Per component, before the sums over its triangles.
+  std::vector<Sums> Initial; ///< Per component, before the sums over its triangles.
 
 private:
   void FindRoots(const IndexedSurface& surface, Executor& executor);
@@ -200,9 +200,9 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
   for (const int first : firsts)
   {
     const int corner = surface.Triangles[first][0];
-    this->Begun.emplace_back();
-    this->Begun.back().Reference = surface.Points[corner];
-    number[this->Root[corner]] = static_cast<int>(this->Begun.size());
+    this->Initial.emplace_back();
+    this->Initial.back().Reference = surface.Points[corner];
+    number[this->Root[corner]] = static_cast<int>(this->Initial.size());
   }
   MakeZeroed(this->OfTriangle, surface.Triangles.size());
   ForSpans(executor, this->OfTriangle.size(), SpanSize,
@@ -219,13 +219,13 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
     const int own = number[this->Root[p]].load(std::memory_order_relaxed) - 1;
     if (own >= 0)
     {
-      ++this->Begun[own].Vertices;
+      ++this->Initial[own].Vertices;
     }
   }
 }
 
 /** @param components component of each triangle */
-void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& executor,
+void AddUp(const IndexedSurface& surface, const LargeVector<int>& components, Executor& executor,
   std::vector<Sums>& sums)
 {
   LargeVector<Terms> terms;
@@ -239,13 +239,13 @@ void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& 
         for (std::size_t i = begin; i < end; ++i)
         {
           const Triangle& t = surface.Triangles[first + i];
-          terms[i] = TermsOf(sums[of[first + i]].Reference, surface.Points[t[0]],
+          terms[i] = TermsOf(sums[components[first + i]].Reference, surface.Points[t[0]],
             surface.Points[t[1]], surface.Points[t[2]]);
         }
       });
     for (std::size_t i = 0; i < count; ++i)
     {
-      sums[of[first + i]].Add(terms[i]);
+      sums[components[first + i]].Add(terms[i]);
     }
   }
 }
@@ -254,7 +254,7 @@ void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& 
 SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor)
 {
   Components components(surface, executor);
-  std::vector<Sums> sums = std::move(components.Begun);
+  std::vector<Sums> sums = std::move(components.Initial);
   AddUp(surface, components.OfTriangle, executor, sums);
   std::vector<int> order(sums.size());
   std::iota(order.begin(), order.end(), 0);

@@ -47,7 +47,7 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 
-double AreaShare(const SurfaceMesh& mesh, int v)
+double VertexArea(const SurfaceMesh& mesh, int v)
 {
   const Ring& ring = mesh.Rings[v];
   const Vector& p = mesh.Position[v];

@@ -61,7 +61,7 @@ double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
 Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
 /** Return a third of the area of the faces at a vertex, 0 if it is not alive. */
-double AreaShare(const SurfaceMesh& mesh, int v);
+double VertexArea(const SurfaceMesh& mesh, int v);
 }
 
 #endif

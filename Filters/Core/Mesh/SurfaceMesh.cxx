@@ -53,13 +53,13 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
+int SurfaceMesh::AddVertex(const Vector& position, VertexSlots* slots)
 {
   int v = this->Size();
-  if (room)
+  if (slots)
   {
-    v = room->Next++;
-    ++room->Added;
+    v = slots->Next++;
+    ++slots->Added;
   }
   else
   {
@@ -70,16 +70,16 @@ int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
   return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v, VertexRoom* room)
+void SurfaceMesh::RemoveVertex(int v, VertexSlots* slots)
 {
   this->Rings[v].Count = 0;
-  if (room)
+  if (slots)
   {
-    --room->Added;
+    --slots->Added;
   }
   else
   {
-    ++this->Empty;
+    ++this->FreeSlots;
   }
 }
 
@@ -121,8 +121,8 @@ std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
-  LargeVector<int> place; // Allocated and written by threads.
-  MakeZeroed(place, this->Rings.size());
+  LargeVector<int> newIndex; // Allocated and written by threads.
+  MakeZeroed(newIndex, this->Rings.size());
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
   MakeZeroed(surface.Points, firstPoint.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
@@ -133,7 +133,7 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
       {
         if (this->IsAlive(static_cast<int>(v)))
         {
-          place[v] = static_cast<int>(next);
+          newIndex[v] = static_cast<int>(next);
           const Vector& p = this->Position[v];
           surface.Points[next++] = { p.X, p.Y, p.Z };
         }
@@ -148,7 +148,7 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
       std::size_t next = firstFace[span];
       this->VisitFaces(begin, end,
         [&](int a, int b, int c) {
-          surface.Triangles[next++] = { place[a], place[b], place[c] };
+          surface.Triangles[next++] = { newIndex[a], newIndex[b], newIndex[c] };
         });
     });
   return surface;
@@ -166,7 +166,7 @@ class CornersOfPoints
 {
 public:
   CornersOfPoints(const IndexedSurface& surface, Executor& executor)
-    : Surface(surface), Left(surface.Points.size()), Start(surface.Points.size() + 1, 0),
+    : Surface(surface), Remaining(surface.Points.size()), Start(surface.Points.size() + 1, 0),
       Corners(3 * surface.Triangles.size())
   {
     const auto forCorners = [&](auto&& visit)
@@ -184,15 +184,15 @@ public:
         });
     };
     forCorners(
-      [this](int point, int) { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
-    for (std::size_t p = 0; p < this->Left.size(); ++p)
+      [this](int point, int) { this->Remaining[point].fetch_add(1, std::memory_order_relaxed); });
+    for (std::size_t p = 0; p < this->Remaining.size(); ++p)
     {
-      this->Start[p + 1] = this->Start[p] + this->Left[p].load(std::memory_order_relaxed);
+      this->Start[p + 1] = this->Start[p] + this->Remaining[p].load(std::memory_order_relaxed);
     }
     forCorners(
       [this](int point, int corner)
       {
-        const int last = this->Left[point].fetch_sub(1, std::memory_order_relaxed) - 1;
+        const int last = this->Remaining[point].fetch_sub(1, std::memory_order_relaxed) - 1;
         this->Corners[this->Start[point] + last] = corner;
       });
   }
@@ -215,9 +215,9 @@ public:
 
 private:
   const IndexedSurface& Surface;
-  LargeVector<std::atomic<int>> Left; ///< By point: corners not stored yet.
-  LargeVector<int> Start;             ///< By point: index of its first corner in Corners.
-  LargeVector<int> Corners;           ///< 3 x triangle + index in it.
+  LargeVector<std::atomic<int>> Remaining; ///< By point: corners not stored yet.
+  LargeVector<int> Start;                  ///< By point: index of its first corner in Corners.
+  LargeVector<int> Corners;                ///< 3 x triangle + index in it.
 };
 
 /** Return the ring of a vertex from the edges opposite to it. `edges` is a buffer. */
@@ -227,12 +227,12 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
   if (count < 3)
   {
     ThrowInvalidArgument(
-      "the surface is not closed: vertex ", vertex, " has ", count, " triangles");
+      "the surface is not closed: vertex ", vertex, " has ", count, " triangles. Fill its holes.");
   }
   if (count > Ring::Capacity)
   {
-    ThrowInvalidArgument(
-      "vertex ", vertex, " of the surface has ", count, " neighbours, more than ", Ring::Capacity);
+    ThrowInvalidArgument("vertex ", vertex, " of the surface has ", count,
+      " neighbours, but at most ", Ring::Capacity, " are supported. Remesh the surface.");
   }
   corners.FindOppositeEdges(static_cast<std::size_t>(vertex), edges);
   Ring ring;
@@ -253,7 +253,8 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
     const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
     if (!follows || closesEarly)
     {
-      ThrowInvalidArgument("the surface is not a closed oriented manifold at vertex ", vertex);
+      ThrowInvalidArgument(
+        "the surface is not a closed oriented manifold at vertex ", vertex, ". Repair it.");
     }
   }
   return ring;
@@ -311,17 +312,18 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
-  VertexSpares spares;
-  this->Reorder(order, spares, executor);
+  ReorderBuffers buffers;
+  this->Reorder(order, buffers, executor);
 }
 
-void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+void SurfaceMesh::Reorder(
+  const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor)
 {
   const std::size_t n = order.size();
-  this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
-  volumic::Reorder(this->Position, order, spares, executor);
-  LargeVector<int> place;
-  MakeZeroed(place, this->Rings.size());
+  this->FreeSlots = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
+  volumic::Reorder(this->Position, order, buffers, executor);
+  LargeVector<int> newIndex;
+  MakeZeroed(newIndex, this->Rings.size());
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -329,11 +331,11 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, E
       {
         if (order[i] != NoVertex)
         {
-          place[order[i]] = static_cast<int>(i);
+          newIndex[order[i]] = static_cast<int>(i);
         }
       }
     });
-  LargeVector<Ring>& rings = spares.Spare<Ring>::Values;
+  LargeVector<Ring>& rings = buffers.ReorderBuffer<Ring>::Values;
   MakeRoom(rings, n);
   rings.resize(n);
   ForSpans(executor, n, VertexSpan,
@@ -348,14 +350,14 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, E
           const Ring& before = this->Rings[order[i]];
           ring.Count = before.Count;
           std::transform(before.Item, before.Item + before.Count, ring.Item,
-            [&place](int w) { return place[w]; });
+            [&newIndex](int w) { return newIndex[w]; });
         }
       }
     });
   this->Rings.swap(rings);
 }
 
-void SurfaceMesh::Remake(std::size_t n)
+void SurfaceMesh::Allocate(std::size_t n)
 {
   this->Clear();
   MakeRoom(this->Position, n);
@@ -368,7 +370,7 @@ void SurfaceMesh::Clear()
 {
   this->Position = {};
   this->Rings = {};
-  this->Empty = 0;
+  this->FreeSlots = 0;
 }
 
 namespace

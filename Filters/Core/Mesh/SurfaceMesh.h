@@ -75,7 +75,7 @@ struct alignas(64) Ring
  * Range of reserved vertex slots for edits that run while other threads edit other parts of the
  * mesh. It counts the vertices that these edits add and remove.
  */
-struct VertexRoom
+struct VertexSlots
 {
   int Next = 0;
   int End = 0;
@@ -88,15 +88,15 @@ constexpr int NoVertex = -1;
 
 /** Buffers for reordered vertex values. Arrays of other types use the buffer of the rings. */
 template <typename T>
-struct Spare
+struct ReorderBuffer
 {
   LargeVector<T> Values;
 };
-struct VertexSpares
-  : Spare<Ring>
-  , Spare<Vector>
-  , Spare<float>
-  , Spare<std::uint8_t>
+struct ReorderBuffers
+  : ReorderBuffer<Ring>
+  , ReorderBuffer<Vector>
+  , ReorderBuffer<float>
+  , ReorderBuffer<std::uint8_t>
 {
 };
 
@@ -116,7 +116,7 @@ public:
   /** Return the number of slots, free ones included. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
   /** Return the number of alive vertices, after Count() of all VertexSlots. */
-  int NumberOfVertices() const { return this->Size() - this->Empty; }
+  int NumberOfVertices() const { return this->Size() - this->FreeSlots; }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
@@ -128,11 +128,11 @@ public:
    * @param slots provides the index and must not be used up; null: the index follows the last one
    * @return index of the new vertex
    */
-  int AddVertex(const Vector& position, VertexRoom* room = nullptr);
+  int AddVertex(const Vector& position, VertexSlots* slots = nullptr);
   /** Remove a vertex. It is counted in `slots`, or in the mesh if that is null. */
-  void RemoveVertex(int v, VertexRoom* room = nullptr);
+  void RemoveVertex(int v, VertexSlots* slots = nullptr);
   /** Add the counts of reserved slots that are no longer in use. */
-  void Count(const VertexRoom& room) { this->Empty -= room.Added; }
+  void Count(const VertexSlots& slots) { this->FreeSlots -= slots.Added; }
 
   /** Call visit(a, b, c) once per face, counter-clockwise, with the smallest index first. */
   template <typename Visitor>
@@ -186,31 +186,31 @@ public:
    * slot. Each alive vertex must occur once.
    * @param buffers reused between calls, as allocation takes longer than the copy
    */
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor);
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
   /** Make n vertices, whose positions and rings the caller sets. */
-  void Remake(std::size_t n);
+  void Allocate(std::size_t n);
 
 private:
-  int Empty = 0;
+  int FreeSlots = 0;
 };
 
 /** Reorder vertex values, see SurfaceMesh::Reorder. The old values become the buffer. */
 template <typename T>
-void Reorder(
-  LargeVector<T>& values, const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+void Reorder(LargeVector<T>& values, const std::vector<int>& order, ReorderBuffers& buffers,
+  Executor& executor)
 {
-  constexpr bool isSwapped = std::is_base_of_v<Spare<T>, VertexSpares>;
-  using OfSpare = std::conditional_t<isSwapped, T, Ring>;
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(OfSpare));
+  constexpr bool isSwapped = std::is_base_of_v<ReorderBuffer<T>, ReorderBuffers>;
+  using BufferType = std::conditional_t<isSwapped, T, Ring>;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(BufferType));
   constexpr std::size_t span = 16384;
   const std::size_t n = order.size();
-  LargeVector<OfSpare>& spare = static_cast<Spare<OfSpare>&>(spares).Values;
-  MakeRoom(spare, n);
-  spare.resize(n);
-  T* const ordered = reinterpret_cast<T*>(spare.data());
+  LargeVector<BufferType>& buffer = static_cast<ReorderBuffer<BufferType>&>(buffers).Values;
+  MakeRoom(buffer, n);
+  buffer.resize(n);
+  T* const ordered = reinterpret_cast<T*>(buffer.data());
   ForSpans(executor, n, span,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -221,7 +221,7 @@ void Reorder(
     });
   if constexpr (isSwapped)
   {
-    values.swap(spare);
+    values.swap(buffer);
   }
   else
   {

@@ -9,7 +9,7 @@
 namespace volumic
 {
 /** Return the squared distance from a point to a triangle, given by its three corners. */
-double SquaredDistanceToTriangle(const VectorD& place, const VectorD* triangle);
+double SquaredDistanceToTriangle(const VectorD& point, const VectorD* triangle);
 
 /**
  * Return the squared distance of two triangles of a mesh apart from their common vertices: the

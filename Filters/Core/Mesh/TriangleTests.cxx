@@ -123,8 +123,8 @@ bool SegmentIntersects(
     return !BoxesApart(ends, 2, t, 3, tolerance) && IntersectInPlane(plane.Normal, p, q, t);
   }
   // Test the point where the segment crosses the plane, or comes nearest to it.
-  const double share = std::min(std::max(dp / (dp - dq), 0.), 1.);
-  const VectorD x = p + (q - p) * share;
+  const double fraction = std::min(std::max(dp / (dp - dq), 0.), 1.);
+  const VectorD x = p + (q - p) * fraction;
   if (BoxesApart(&x, 1, t, 3, 2 * tolerance))
   {
     return false;
@@ -147,11 +147,11 @@ bool SegmentIntersects(
  * tolerances from the triangle, at a sharp corner, where only the bounding box limits them. Return
  * false for slivers, whose normals are unreliable.
  */
-bool PartedAtCorner(
+bool SeparatedAtCorner(
   const VectorD& corner, const VectorD* endsF, const VectorD* endsG, double tolerance)
 {
   constexpr double leastTolerances = 8;
-  constexpr double leastShare = 1e-3;
+  constexpr double leastRatio = 1e-3;
   constexpr double leastSine = 1e-6;
   const VectorD a = endsF[0] - corner;
   const VectorD b = endsF[1] - corner;
@@ -159,7 +159,7 @@ bool PartedAtCorner(
   const VectorD d = endsG[1] - corner;
   const VectorD across = a + b - c - d;
   const double length = Length(across);
-  const double least = length * (leastTolerances * tolerance + leastShare * length);
+  const double least = length * (leastTolerances * tolerance + leastRatio * length);
   const auto isSliver = [](const VectorD& p, const VectorD& q)
   {
     const VectorD normal = Cross(p, q);
@@ -189,7 +189,7 @@ bool IntersectBeyondCorner(const VectorD* f, int i, const VectorD* g, int j, dou
 {
   const VectorD endsF[2] = { f[(i + 1) % 3], f[(i + 2) % 3] };
   const VectorD endsG[2] = { g[(j + 1) % 3], g[(j + 2) % 3] };
-  if (PartedAtCorner(f[i], endsF, endsG, tolerance))
+  if (SeparatedAtCorner(f[i], endsF, endsG, tolerance))
   {
     return false;
   }

@@ -67,30 +67,30 @@ public:
 
   /** Return the winding number about a point of the triangles with counts(triangle). */
   template <typename Counts>
-  int WindingAbout(const Point& place, const Counts& counts) const
+  int WindingNumber(const Point& point, const Counts& counts) const
   {
     int winding = 0;
     this->Traverse(
-      [&place](const Node& node)
+      [&point](const Node& node)
       {
-        return node.Box.Low[0] <= place[0] && node.Box.Low[1] <= place[1] &&
-          place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] &&
-          place[2] <= node.Box.High[2];
+        return node.Box.Low[0] <= point[0] && node.Box.Low[1] <= point[1] &&
+          point[1] <= node.Box.High[1] && node.Box.Low[2] <= point[2] &&
+          point[2] <= node.Box.High[2];
       },
       [&](int i)
       {
         const Triangle& t = this->Surface.Triangles[i];
         const auto corner = [&](int k) -> const Point& { return this->Surface.Points[t[k]]; };
         const RowCrossing crossing =
-          RowCrossing::Of(corner(0), corner(1), corner(2), place[1], place[2]);
-        winding += crossing.X < place[0] && counts(i) ? crossing.Winding : 0;
+          RowCrossing::Of(corner(0), corner(1), corner(2), point[1], point[2]);
+        winding += crossing.X < point[0] && counts(i) ? crossing.Winding : 0;
         return true;
       });
     return winding;
   }
 
   /** Return the squared distance to the nearest triangle. */
-  double SquaredDistance(const Point& place) const;
+  double SquaredDistance(const Point& point) const;
 
 private:
   /** The tree is balanced, so this suffices for any number of triangles in an int. */

@@ -52,10 +52,11 @@ void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
   this->Inverse = 1.f / cell;
   this->BricksAlong[0] = static_cast<int>(bricks(size[0]));
   this->BricksAlong[1] = static_cast<int>(bricks(size[1]));
-  const auto places = static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
+  const auto numberOfBricks =
+    static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
   this->Made.clear();
   this->NumberMade = 0;
-  this->Bricks = LargeVector<std::atomic<Brick*>>(places);
+  this->Bricks = LargeVector<std::atomic<Brick*>>(numberOfBricks);
   this->Next = {};
   this->Cell = {};
 }
@@ -162,7 +163,7 @@ public:
 
   /** Call work(v) for all vertices: sequentially and in order within a layer. */
   template <typename Work>
-  void Do(Executor& executor, Work&& work) const
+  void Run(Executor& executor, Work&& work) const
   {
     ForSpans(executor, this->Layers, 1,
       [&](std::size_t layer, std::size_t, std::size_t)
@@ -197,7 +198,7 @@ void VertexGrid::InsertAll(const LargeVector<Vector>& positions, std::size_t fir
         add(this->LayerOf(this->CellOf(positions[v])), v);
       }
     });
-  linking.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
+  linking.Run(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
 }
 
 void VertexGrid::Remove(int v)

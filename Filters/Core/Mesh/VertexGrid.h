@@ -100,12 +100,12 @@ public:
   template <typename Visitor>
   void VisitGroups(const Vector& low, const Vector& high, Visitor&& visit) const
   {
-    const int x0 = this->Along(low.X, 0);
-    const int x1 = this->Along(high.X, 0);
-    const int y0 = this->Along(low.Y, 1);
-    const int y1 = this->Along(high.Y, 1);
-    const int z0 = this->Along(low.Z, 2);
-    const int z1 = this->Along(high.Z, 2);
+    const int x0 = this->CellAlong(low.X, 0);
+    const int x1 = this->CellAlong(high.X, 0);
+    const int y0 = this->CellAlong(low.Y, 1);
+    const int y1 = this->CellAlong(high.Y, 1);
+    const int z0 = this->CellAlong(low.Z, 2);
+    const int z1 = this->CellAlong(high.Z, 2);
     FirstVertices firsts;
     for (int z = z0; z <= z1; ++z)
     {
@@ -190,17 +190,17 @@ private:
     }
   }
 
-  int Along(float x, int axis) const
+  int CellAlong(float x, int axis) const
   {
-    const float place = (x - this->Low[axis]) * this->Inverse;
+    const float cell = (x - this->Low[axis]) * this->Inverse;
     const int last = this->Size[axis] - 1;
-    return place <= 0 ? 0 : (place >= static_cast<float>(last) ? last : static_cast<int>(place));
+    return cell <= 0 ? 0 : (cell >= static_cast<float>(last) ? last : static_cast<int>(cell));
   }
   std::uint32_t CellOf(const Vector& p) const
   {
     const std::size_t row =
-      static_cast<std::size_t>(this->Along(p.Z, 2)) * this->Size[1] + this->Along(p.Y, 1);
-    return static_cast<std::uint32_t>(row * this->Size[0] + this->Along(p.X, 0));
+      static_cast<std::size_t>(this->CellAlong(p.Z, 2)) * this->Size[1] + this->CellAlong(p.Y, 1);
+    return static_cast<std::uint32_t>(row * this->Size[0] + this->CellAlong(p.X, 0));
   }
   /** Return the layer of bricks that contains a cell. */
   std::size_t LayerOf(std::uint32_t cell) const

@@ -14,7 +14,7 @@ struct VertexRemoval
 
   /** Return whether the valence is 3 and each neighbour keeps a valence of at least 3. */
   bool IsLegal(const SurfaceMesh& mesh) const;
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

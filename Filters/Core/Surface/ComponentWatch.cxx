@@ -146,7 +146,7 @@ bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& sma
   return true;
 }
 
-bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditContext* share)
+bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditContext* context)
 {
   bool deleted = false;
   for (SmallComponent& small : this->Watched)
@@ -169,12 +169,12 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditContext* share)
       (size <= TinySize &&
         std::all_of(small.Vertices.begin(), small.Vertices.end(), isOnWrongSide)))
     {
-      if (share)
+      if (context)
       {
         const SurfaceState::RemovedComponent removed =
-          state.TakeComponentAway(small.Vertices.front(), &share->Room);
-        share->EulerCharacteristic -= removed.EulerCharacteristic;
-        ++share->Counts.Removed;
+          state.EraseComponent(small.Vertices.front(), &context->Slots);
+        context->EulerCharacteristic -= removed.EulerCharacteristic;
+        ++context->Counts.Removed;
       }
       else
       {

@@ -59,7 +59,7 @@ public:
    * @param context of the block pass, which counts the deletions; null: the state counts them
    * @return whether any was deleted
    */
-  bool DeleteDegenerate(SurfaceState& state, EditContext* share = nullptr);
+  bool DeleteDegenerate(SurfaceState& state, EditContext* context = nullptr);
 
 private:
   struct SmallComponent

@@ -14,13 +14,13 @@ namespace volumic
 namespace
 {
 /** Clearance, in delta, on one side of a plane beyond which two faces need no exact test. */
-constexpr float RoomBesidePlane = 0.01f;
+constexpr float PlaneClearance = 0.01f;
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
 /** Twice the least area, in delta squared, with a reliable normal in float. */
 constexpr float LeastArea = 1e-2f;
 /** Factor of lambda: edges may exceed their bound until the end of an iteration. */
-constexpr float ReachShare = 1.1f;
+constexpr float EdgeTolerance = 1.1f;
 
 /** Factor that makes a rounded length an upper bound. */
 constexpr float AboveRounding = 1.0001f;
@@ -32,11 +32,11 @@ constexpr std::size_t TestedSpan = 512;
 struct NewFace
 {
   NewFace(const MeshTriangle& face, float delta)
-    : Corners(face), Place(face.Corner[0]),
-      Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
+    : Corners(face), Origin(face.Corner[0]),
+      Bounds(Box::Of(this->Origin, Vector(face.Corner[1]), Vector(face.Corner[2])))
   {
     const Vector normal =
-      Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place);
+      Cross(Vector(face.Corner[1]) - this->Origin, Vector(face.Corner[2]) - this->Origin);
     this->Normal = Normalized(normal);
     this->HasNormal = Length(normal) > LeastArea * delta * delta;
   }
@@ -46,7 +46,7 @@ struct NewFace
    * lie on one side of the plane with some clearance, or the faces share an edge and are not
    * folded.
    */
-  bool IsClearOf(const NewFace& other, float room) const
+  bool IsSeparatedFrom(const NewFace& other, float clearance) const
   {
     if (!this->HasNormal || !other.HasNormal)
     {
@@ -64,15 +64,15 @@ struct NewFace
         ++shared;
         continue;
       }
-      const float height = Dot(this->Normal, Vector(other.Corners.Corner[k]) - this->Place);
-      above = above && height > room;
-      below = below && height < -room;
+      const float height = Dot(this->Normal, Vector(other.Corners.Corner[k]) - this->Origin);
+      above = above && height > clearance;
+      below = below && height < -clearance;
     }
     return shared < 2 ? above || below : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
   }
 
   const MeshTriangle& Corners;
-  Vector Place;
+  Vector Origin;
   Box Bounds;
   Vector Normal;  ///< Unit.
   bool HasNormal; ///< False for slivers.
@@ -91,12 +91,13 @@ bool Intersect(const SurfaceState& state, const MeshTriangle& one, const MeshTri
 
 bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& faces)
 {
-  const float room = RoomBesidePlane * state.Sizing.At(faces[0].Corners.Vertex[0]);
+  const float clearance = PlaneClearance * state.Sizing.At(faces[0].Corners.Vertex[0]);
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     for (std::size_t j = i + 1; j < faces.size(); ++j)
     {
-      if (!faces[i].IsClearOf(faces[j], room) && !faces[j].IsClearOf(faces[i], room) &&
+      if (!faces[i].IsSeparatedFrom(faces[j], clearance) &&
+        !faces[j].IsSeparatedFrom(faces[i], clearance) &&
         Intersect(state, faces[i].Corners, faces[j].Corners))
       {
         return true;
@@ -107,23 +108,23 @@ bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& f
 }
 
 /** Return whether any new face intersects the face (w, u, v) of the mesh. */
-bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
-  const Box& bounds)
+bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& newFaces, int w, int u,
+  int v, const Box& bounds)
 {
   const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
-  if (std::none_of(news.begin(), news.end(), isNear))
+  if (std::none_of(newFaces.begin(), newFaces.end(), isNear))
   {
     return false;
   }
   const float delta = state.Sizing.At(w);
-  const float room = RoomBesidePlane * delta;
+  const float clearance = PlaneClearance * delta;
   const MeshTriangle triangle = TriangleOf(state.Mesh, w, u, v);
   const NewFace other(triangle, delta);
-  return std::any_of(news.begin(), news.end(),
+  return std::any_of(newFaces.begin(), newFaces.end(),
     [&](const NewFace& face)
     {
-      return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
-        Intersect(state, face.Corners, triangle);
+      return isNear(face) && !face.IsSeparatedFrom(other, clearance) &&
+        !other.IsSeparatedFrom(face, clearance) && Intersect(state, face.Corners, triangle);
     });
 }
 }
@@ -131,28 +132,29 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed)
 {
-  std::vector<NewFace> news;
-  news.reserve(faces.size());
+  std::vector<NewFace> newFaces;
+  newFaces.reserve(faces.size());
   Box all = { Vector(faces[0].Corner[0]), Vector(faces[0].Corner[0]) };
   for (const MeshTriangle& face : faces)
   {
-    news.emplace_back(face, state.Sizing.At(face.Vertex[0]));
-    all = all.With(news.back().Bounds);
+    newFaces.emplace_back(face, state.Sizing.At(face.Vertex[0]));
+    all = all.With(newFaces.back().Bounds);
   }
-  if (IntersectEachOther(state, news))
+  if (IntersectEachOther(state, newFaces))
   {
     return true;
   }
   // An intersecting face has a corner within this distance of the box of the new faces.
-  float reach = 0.f;
+  float radius = 0.f;
   for (const MeshTriangle& face : faces)
   {
     for (const int v : face.Vertex)
     {
-      reach = std::max(reach, state.Sizing.FurtherThan(v, ReachShare * SizingField::LambdaInDelta));
+      radius =
+        std::max(radius, state.Sizing.ScaledRadius(v, EdgeTolerance * SizingField::LambdaInDelta));
     }
   }
-  const Box visited = all.Grown(reach);
+  const Box visited = all.Grown(radius);
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
   bool intersects = false;
@@ -178,7 +180,7 @@ bool NewFacesIntersect(
         const int v = ring.Next(i);
         const Box bounds = Box::Of(mesh.Position[w], mesh.Position[u], mesh.Position[v]);
         intersects = !bounds.IsApartFrom(all) && !removed.Contains({ w, u, v }) &&
-          IntersectFace(state, news, w, u, v, bounds);
+          IntersectFace(state, newFaces, w, u, v, bounds);
       }
     });
   return intersects;
@@ -202,21 +204,21 @@ public:
   bool Intersect(int v)
   {
     this->Faces.clear();
-    this->News.clear();
+    this->NewFaces.clear();
     this->VisitFaces(
       v, [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
     if (this->Faces.empty())
     {
       return false;
     }
-    const Vector place = this->State.Mesh.Position[v];
-    Box all = { place, place };
+    const Vector position = this->State.Mesh.Position[v];
+    Box all = { position, position };
     for (const MeshTriangle& face : this->Faces)
     {
-      this->News.emplace_back(face, this->State.Sizing.At(v));
-      all = all.With(this->News.back().Bounds);
+      this->NewFaces.emplace_back(face, this->State.Sizing.At(v));
+      all = all.With(this->NewFaces.back().Bounds);
     }
-    if (IntersectEachOther(this->State, this->News))
+    if (IntersectEachOther(this->State, this->NewFaces))
     {
       return true;
     }
@@ -259,15 +261,15 @@ private:
 
   bool IntersectFaceOf(int w, int a, int b, const Box& all) const
   {
-    const LargeVector<Vector>& place = this->State.Mesh.Position;
-    const Box bounds = Box::Of(place[w], place[a], place[b]);
-    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->News, w, a, b, bounds);
+    const LargeVector<Vector>& position = this->State.Mesh.Position;
+    const Box bounds = Box::Of(position[w], position[a], position[b]);
+    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->NewFaces, w, a, b, bounds);
   }
 
   const SurfaceState& State;
   const LargeVector<float>& Longest;
   std::vector<MeshTriangle> Faces;
-  std::vector<NewFace> News;
+  std::vector<NewFace> NewFaces;
 };
 }
 

@@ -24,7 +24,7 @@ class Proximity
 {
 public:
   /** Additional search radius of a slow vertex, which then needs a test less often. */
-  static constexpr float FurtherReachInDelta = 0.25f;
+  static constexpr float ExtraSearchRadiusInDelta = 0.25f;
 
   struct ClosePair
   {
@@ -42,7 +42,7 @@ public:
   {
     std::vector<ClosePair> Pairs;
     std::vector<FacePair> Intersections;
-    std::vector<int> Tight; ///< Corners of faces with no clearance.
+    std::vector<int> Touching; ///< Corners of faces with no clearance.
   };
 
   /**

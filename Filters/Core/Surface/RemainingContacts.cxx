@@ -15,7 +15,7 @@ namespace
 /** Relative tolerance of the distance bound. */
 constexpr double Rounding = 1e-6;
 /** Distance, in lambda delta, within which another part of the surface may constrain a vertex. */
-constexpr float ContactReach = 1.15f;
+constexpr float ContactRadius = 1.15f;
 /** Distance to the isosurface, in delta, from which on a vertex is constrained. */
 constexpr float FarFromIso = 0.1f;
 
@@ -47,20 +47,20 @@ RemainingContacts FindRemainingContacts(
         }
         const VectorD p(mesh.Position[v]);
         const double bound = BoundOf(state.Sizing, v);
-        const float reach = state.Sizing.LargestClearance(v, ContactReach);
+        const float radius = state.Sizing.LargestClearance(v, ContactRadius);
         bool hasOther = false;
-        state.Grid.Visit(mesh.Position[v], reach,
+        state.Grid.Visit(mesh.Position[v], radius,
           [&](int w)
           {
             const VectorD across = VectorD(mesh.Position[w]) - p;
             const double squared = Dot(across, across);
             const bool isForbidden = squared < bound * bound;
             // Only vertices that face it constrain a vertex.
-            const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
+            const bool mayConstrain = !hasOther && squared < static_cast<double>(radius) * radius &&
               Dot(state.Normal[v].Axis(), state.Normal[w].Axis()) < 0;
-            if (w != v && ((isForbidden && w > v) || mayHold) && mesh.AreFarApart(v, w))
+            if (w != v && ((isForbidden && w > v) || mayConstrain) && mesh.AreFarApart(v, w))
             {
-              hasOther = hasOther || mayHold;
+              hasOther = hasOther || mayConstrain;
               if (isForbidden && w > v)
               {
                 spans[b].push_back({ v, w });

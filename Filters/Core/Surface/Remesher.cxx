@@ -228,9 +228,9 @@ void Remesher::UnstickAt(int v)
   {
     return;
   }
-  for (float share : { 0.5f, 0.25f, 0.1f })
+  for (float fraction : { 0.5f, 0.25f, 0.1f })
   {
-    if (this->Editor.Move(v, p + (centre - p) * share, EditTolerance::Loose))
+    if (this->Editor.Move(v, p + (centre - p) * fraction, EditTolerance::Loose))
     {
       s.Velocity[v] = Vector();
       break;

@@ -25,8 +25,8 @@ public:
    * @param context of the block pass; null: no other thread edits
    */
   Remesher(
-    SurfaceState& state, const Field* field, bool topologyChanges, EditContext* share = nullptr)
-    : State(state), Editor(state, share), TheField(field), TopologyChanges(topologyChanges)
+    SurfaceState& state, const Field* field, bool topologyChanges, EditContext* context = nullptr)
+    : State(state), Editor(state, context), TheField(field), TopologyChanges(topologyChanges)
   {
   }
 

@@ -39,7 +39,7 @@ public:
   /** lambda of eq. (1): circumradius of the largest legal triangle. */
   static constexpr float LambdaInDelta = 1.4433757f;
   /** Two intersecting triangles of legal edges have two corners nearer than this. */
-  static constexpr float ReachInDelta = 1.8f;
+  static constexpr float SearchRadiusInDelta = 1.8f;
   /** Rest length of the springs, in the middle of the range of eq. (1). */
   static constexpr float RestLengthInDelta = 1.6f;
   /** Triangles nearer than this count as intersecting, as a margin for later rounding. */
@@ -67,7 +67,7 @@ public:
     graded.Most = std::max(most, this->LevelDelta);
     const float length = LongestEdgeInDelta * gradation;
     graded.HasGradation = gradation < 1.f;
-    graded.TimesFurther = graded.HasGradation
+    graded.TheRadiusFactor = graded.HasGradation
       ? (std::exp(length) - 1.f) / (length * (1.f - gradation))
       : graded.Most / graded.LevelDelta;
     return graded;
@@ -76,11 +76,11 @@ public:
   /** Return whether the field is graded and its delta grows by at most a gradation. */
   bool KeepsGradation() const { return this->HasGradation; }
   /** Return the ratio of search radii to those of a uniform surface. */
-  float Further() const { return this->TimesFurther; }
+  float RadiusFactor() const { return this->TheRadiusFactor; }
   /** Return a search radius about a vertex, given in delta, times RadiusFactor(). */
-  float FurtherThan(int v, float inDelta) const
+  float ScaledRadius(int v, float inDelta) const
   {
-    return inDelta * std::min(this->TimesFurther * this->At(v), this->Largest());
+    return inDelta * std::min(this->TheRadiusFactor * this->At(v), this->Largest());
   }
 
   /** Return delta of the level, the least of all vertices. */
@@ -102,29 +102,29 @@ public:
 
   /** Return the bounds of the edge (u, v), eq. (1). */
   float ShortestEdge(int u, int v) const { return this->OfEdge(u, v); }
-  float LongestEdge(int u, int v, float share = 1) const
+  float LongestEdge(int u, int v, float factor = 1) const
   {
-    return share * LongestEdgeInDelta * this->OfEdge(u, v);
+    return factor * LongestEdgeInDelta * this->OfEdge(u, v);
   }
   /** Return the length of the edge (u, v) in delta. Eq. (1) allows 1 to LongestEdgeInDelta. */
   float InDelta(int u, int v, float length) const { return length / this->OfEdge(u, v); }
   float RestLength(int u, int v) const { return RestLengthInDelta * this->OfEdge(u, v); }
 
   /** Return lambda delta, eq. (1): least distance of two vertices far apart on the surface. */
-  float Clearance(int u, int v, float share = 1) const
+  float Clearance(int u, int v, float factor = 1) const
   {
-    return share * LambdaInDelta * std::min(this->At(u), this->At(v));
+    return factor * LambdaInDelta * std::min(this->At(u), this->At(v));
   }
   /** Return the maximum of Clearance(v, w) over all w. */
-  float LargestClearance(int v, float share = 1) const
+  float LargestClearance(int v, float factor = 1) const
   {
-    return share * LambdaInDelta * this->At(v);
+    return factor * LambdaInDelta * this->At(v);
   }
 
   /** Return the distance within which intersecting triangles, one of them at v, have corners. */
-  float Reach(int v) const { return this->FurtherThan(v, ReachInDelta); }
-  float SmallestReach() const { return ReachInDelta * this->LevelDelta; }
-  float LargestReach() const { return ReachInDelta * this->Largest(); }
+  float SearchRadius(int v) const { return this->ScaledRadius(v, SearchRadiusInDelta); }
+  float SmallestSearchRadius() const { return SearchRadiusInDelta * this->LevelDelta; }
+  float LargestSearchRadius() const { return SearchRadiusInDelta * this->Largest(); }
 
   /** Return the distance below which a triangle with corner v intersects another triangle. */
   double Contact(int) const { return ContactInDelta * this->LevelDelta; }
@@ -132,7 +132,7 @@ public:
 private:
   float LevelDelta = 1;
   float Most = 1;
-  float TimesFurther = 1;
+  float TheRadiusFactor = 1;
   bool HasGradation = false;
   const LargeVector<float>* OfVertices = nullptr; ///< Null: uniform.
 };

@@ -104,7 +104,7 @@ struct StarLink
   int Centre;
   int Count;
   int Item[Ring::Capacity + 1]; ///< Neighbours; four may be read from every fourth on.
-  Vector Place;
+  Vector Position;
   StarVectors Link; ///< Positions of the neighbours, then the first two again.
 };
 

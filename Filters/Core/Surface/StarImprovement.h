@@ -41,7 +41,7 @@ private:
   bool CollapseEdges(int v);
   bool CollapseEdge(int u, int v, float before);
   bool FlipEdges(int v);
-  bool Strays(int v, const Vector& position) const;
+  bool LeavesIsosurface(int v, const Vector& position) const;
   bool Approaches(int v, const Vector& position) const;
   bool Slide(int v);
 

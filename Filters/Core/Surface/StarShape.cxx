@@ -10,10 +10,10 @@ namespace volumic
 {
 StarShape::StarShape(const SurfaceMesh& mesh, int v) : StarLink(mesh, v)
 {
-  const VectorLanes place = AllLanes(this->Place);
+  const VectorLanes position = AllLanes(this->Position);
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    const VectorLanes edge = this->Link.At(i) - place;
+    const VectorLanes edge = this->Link.At(i) - position;
     this->Edge.Set(i, edge);
     this->Length.Set(i, SquareRoot(Dot(edge, edge)));
   }

@@ -28,11 +28,11 @@ struct BlockPass
   int First = 0; ///< Its vertices are in [First, End()): those of the block, then new ones.
   Box Moving;    ///< Only vertices in it may move. EditContext::Region limits edits.
   Box Written;   ///< Nothing is changed outside.
-  EditContext Share;
+  EditContext Context;
   LargeComponents Large; ///< At the begin of the pass.
 
   /** The range may contain free slots. */
-  int End() const { return this->Share.Room.Next; }
+  int End() const { return this->Context.Slots.Next; }
 };
 
 /**
@@ -86,7 +86,7 @@ public:
 
   /** Return the order of the passes and their dependencies. Some blocks have no vertices. */
   const BlockSchedule& Schedule() const { return *this->Passes; }
-  int NumberOfBlocks() const { return static_cast<int>(this->All.size()); }
+  int NumberOfBlocks() const { return static_cast<int>(this->Ranges.size()); }
   /** Return the number of vertices. Changes of open passes count from Close() on. Thread-safe. */
   int NumberOfVertices() const
   {
@@ -100,7 +100,7 @@ public:
    */
   BlockPass Open(int block);
   /** End a pass, on its thread. Its counts are added to those of the state. */
-  void Close(BlockPass&& visit);
+  void Close(BlockPass&& pass);
 
   /** Return whether a vertex of the block may move. */
   bool HasActive(int block) const;
@@ -129,23 +129,23 @@ public:
   double SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const;
 
 private:
-  struct OfBlock
+  struct VertexRange
   {
     int First = 0; ///< Vertices: [First, Next).
     int Next = 0;  ///< Free slots: [Next, End).
     int End = 0;
-    int Taken = 0;         ///< Slots used by its last pass.
-    bool IsAstray = false; ///< A vertex has left the block.
+    int SlotsUsed = 0;     ///< Slots used by its last pass.
+    bool HasStray = false; ///< A vertex has left the block.
   };
   std::array<int, 3> IjkOf(const Vector& position) const;
-  int BlockOf(const std::array<int, 3>& place) const;
+  int BlockOf(const std::array<int, 3>& ijk) const;
   void Reorder(Executor& executor, bool isNew);
-  void FindOrder();
+  void MakeSchedule();
 
   SurfaceState& State;
   Frame TheFrame;
-  std::vector<OfBlock> All;
-  VertexSpares Spares;
+  std::vector<VertexRange> Ranges;
+  ReorderBuffers Buffers;
   std::unique_ptr<BlockSchedule> Passes;
   mutable std::mutex Closing; ///< Guards what all passes share.
 };

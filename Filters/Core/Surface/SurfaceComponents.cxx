@@ -107,22 +107,22 @@ std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<
   const std::vector<Vector>& origins, std::size_t begin, std::size_t end)
 {
   std::vector<PartialVolume> volumes;
-  std::unordered_map<int, std::size_t> places;
-  std::size_t place = 0;
+  std::unordered_map<int, std::size_t> slots;
+  std::size_t slot = 0;
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
       const int label = labels[a];
-      if (volumes.empty() || volumes[place].first != label)
+      if (volumes.empty() || volumes[slot].first != label)
       {
-        const auto found = places.emplace(label, volumes.size());
-        place = found.first->second;
+        const auto found = slots.emplace(label, volumes.size());
+        slot = found.first->second;
         if (found.second)
         {
           volumes.emplace_back(label, 0.);
         }
       }
-      volumes[place].second += SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c);
+      volumes[slot].second += SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c);
     });
   return volumes;
 }
@@ -151,17 +151,17 @@ std::vector<double> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<in
 std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
 {
-  std::vector<Vector> places;
+  std::vector<Vector> origins;
   for (const int root : roots)
   {
-    places.push_back(mesh.Position[root]);
+    origins.push_back(mesh.Position[root]);
   }
-  const std::vector<double> volumes = VolumesOfFaces(mesh, labels, places, executor);
+  const std::vector<double> volumes = VolumesOfFaces(mesh, labels, origins, executor);
   std::vector<ComponentRay> rays;
   for (std::size_t label = 0; label < roots.size(); ++label)
   {
     rays.push_back(
-      { roots[label], static_cast<int>(label), PointAt(places[label]), volumes[label] < 0. });
+      { roots[label], static_cast<int>(label), PointAt(origins[label]), volumes[label] < 0. });
   }
   std::sort(rays.begin(), rays.end(),
     [](const ComponentRay& a, const ComponentRay& b)
@@ -187,7 +187,7 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
     origins.push_back(ray.Origin);
     own.push_back(ray.Label);
   }
-  const std::vector<std::vector<int>> around = ComponentsAbout(
+  const std::vector<std::vector<int>> enclosing = EnclosingComponents(
     origins, own, mesh.Rings.size(),
     [&](std::size_t begin, std::size_t end, const auto& visit)
     {
@@ -203,12 +203,12 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
   std::vector<int> order(rays.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-    [&around](int a, int b) { return around[a].size() < around[b].size(); });
+    [&enclosing](int a, int b) { return enclosing[a].size() < enclosing[b].size(); });
   std::vector<char> isInsideOut(rays.size(), 0); // By label.
   std::vector<int> found;
   for (int i : order)
   {
-    const auto depth = std::count_if(around[i].begin(), around[i].end(),
+    const auto depth = std::count_if(enclosing[i].begin(), enclosing[i].end(),
       [&isInsideOut](int label) { return !isInsideOut[label]; });
     if ((depth % 2 == 1) != rays[i].IsCavity)
     {

@@ -40,7 +40,7 @@ struct Edit
 struct EditContext
 {
   Box Region;                  ///< Edits of stars with vertices outside are rejected.
-  VertexRoom Room;             ///< For new vertices. An edit that finds too few is rejected.
+  VertexSlots Slots;           ///< For new vertices. An edit that finds too few is rejected.
   EditCounts Counts;           ///< Counters of the edits of the pass.
   int EulerCharacteristic = 0; ///< Sum of the changes of chi.
 };
@@ -55,8 +55,8 @@ class SurfaceEditor
 {
 public:
   /** @param context null: no other thread edits, and the state has counters and free slots */
-  explicit SurfaceEditor(SurfaceState& state, EditContext* share = nullptr)
-    : State(state), Share(share)
+  explicit SurfaceEditor(SurfaceState& state, EditContext* context = nullptr)
+    : State(state), Context(context)
   {
   }
 
@@ -83,7 +83,7 @@ public:
   /** Return chi of the surface, or within a pass the change of chi by its edits. */
   int EulerCharacteristic() const
   {
-    return this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic;
+    return this->Context ? this->Context->EulerCharacteristic : this->State.EulerCharacteristic;
   }
 
   /** Return the changed vertices of all edits since TakeChanged(), in order, with duplicates. */
@@ -96,18 +96,18 @@ private:
     int end, int kept, int removed, const Vector& position, EditTolerance tolerance);
   bool StaysSmooth(int u, int v, const MeshTriangle& first, const MeshTriangle& second) const;
   /** Record a change of v and activate it. */
-  void Touch(int v);
-  void TouchStar(int v);
+  void MarkChanged(int v);
+  void MarkStarChanged(int v);
   Edit Done(std::size_t firstChange, int vertex = -1) const;
   /** Return whether the stars of these vertices may be edited. */
   bool MayEdit(std::initializer_list<int> vertices) const;
-  bool HasRoom(int n) const { return !this->Share || this->Share->Room.Has(n); }
-  VertexRoom* Room() { return this->Share ? &this->Share->Room : nullptr; }
-  EditCounts& Counts() { return this->Share ? this->Share->Counts : this->State.Counts; }
+  bool HasSlots(int n) const { return !this->Context || this->Context->Slots.Has(n); }
+  VertexSlots* Slots() { return this->Context ? &this->Context->Slots : nullptr; }
+  EditCounts& Counts() { return this->Context ? this->Context->Counts : this->State.Counts; }
   void AddToEulerCharacteristic(int change);
 
   SurfaceState& State;
-  EditContext* Share;
+  EditContext* Context;
   std::vector<MeshTriangle> Faces; ///< New faces of the present edit.
   std::vector<int> Log;
 };

@@ -28,8 +28,8 @@ public:
    * @param context of the block pass; null: no other thread edits
    */
   SurfaceOptimization(
-    SurfaceState& state, const Field* snapTo, bool topologyChanges, EditContext* share = nullptr)
-    : State(state), Share(share), Editor(state, share), SnapTo(snapTo),
+    SurfaceState& state, const Field* snapTo, bool topologyChanges, EditContext* context = nullptr)
+    : State(state), Context(context), Editor(state, context), SnapTo(snapTo),
       TopologyChanges(topologyChanges)
   {
   }
@@ -41,17 +41,17 @@ public:
   std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
 
 private:
-  int EndOfNew() const;               ///< Index of the next new vertex.
-  std::vector<int> AliveOnes() const; ///< Of Candidates and those made by cuts.
+  int NextVertex() const;                 ///< Index of the next new vertex.
+  std::vector<int> AliveVertices() const; ///< Of Candidates and those made by cuts.
   void SeparateAll();
   /** Improve stars whose score is less than `good`. Return the number of cuts. */
   int ImproveAll(float good, bool mayCut);
 
   SurfaceState& State;
-  const EditContext* Share;
+  const EditContext* Context;
   SurfaceEditor Editor;
-  int FirstNew = 0;        ///< First vertex made by Run().
-  std::vector<int> Within; ///< Vertices whose stars may be poor.
+  int FirstNew = 0;            ///< First vertex made by Run().
+  std::vector<int> Candidates; ///< Vertices whose stars may be poor.
   const Field* SnapTo;
   bool TopologyChanges;
 };

@@ -151,7 +151,7 @@ public:
   static constexpr float NeverTested = 1e6f; ///< Greater than any clearance.
 
   /** Release what only iterations need. Call Reset() before the next iterations. */
-  void ForgetMotion();
+  void ReleaseMotion();
   /** Reset all properties to those of a new mesh and cover the box with the grid. */
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
@@ -160,7 +160,7 @@ public:
    * Reorder the mesh, see SurfaceMesh::Reorder, and all vertex properties. Properties used only
    * within a block pass are reset: their memory serves as buffers.
    */
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor);
   /** Append a closed surface, with properties as after Reset(), and compute its shapes. */
   void Append(const IndexedSurface& surface, Executor& executor);
 
@@ -195,7 +195,7 @@ public:
    * Delete the component of a vertex. The caller updates the counters.
    * @param slots of the block pass; null: no other thread edits
    */
-  RemovedComponent TakeComponentAway(int v, VertexRoom* room);
+  RemovedComponent EraseComponent(int v, VertexSlots* slots);
   /** Delete the component of a vertex and update the counters. Return the number of vertices. */
   int RemoveComponent(int v);
 

@@ -25,9 +25,10 @@ public:
   /** Resize to indices below n. New values are the initial one. */
   virtual void Resize(std::size_t n) = 0;
   /** Release the memory until the next Reset(). */
-  virtual void Forget() = 0;
+  virtual void Release() = 0;
   /** See SurfaceMesh::Reorder. Values of free slots are zero. */
-  virtual void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor) = 0;
+  virtual void Reorder(
+    const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor) = 0;
   /** Set the value of a new vertex `v` from that of `parent`, or to that of new vertices. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
 };
@@ -56,18 +57,18 @@ public:
       property->Resize(n);
     }
   }
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor)
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Reorder(order, spares, executor);
+      property->Reorder(order, buffers, executor);
     }
   }
-  void Forget()
+  void Release()
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Forget();
+      property->Release();
     }
   }
   /** Thread-safe if the properties have slots for the vertices. */
@@ -94,8 +95,8 @@ public:
     properties.Register(*this);
   }
   /** Construct a property with a fixed value for new vertices. */
-  VertexProperty(VertexProperties& properties, T initial, T ofNewVertices)
-    : Initial(initial), OfNewVertices(ofNewVertices), Inherits(false)
+  VertexProperty(VertexProperties& properties, T initial, T newValue)
+    : Initial(initial), NewValue(newValue), Inherits(false)
   {
     properties.Register(*this);
   }
@@ -116,12 +117,12 @@ public:
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
-  void Forget() override { this->Values = {}; }
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor) override
+  void Release() override { this->Values = {}; }
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor) override
   {
     if (!this->Values.empty())
     {
-      volumic::Reorder(this->Values, order, spares, executor);
+      volumic::Reorder(this->Values, order, buffers, executor);
     }
   }
   void Add(std::size_t v, std::size_t parent) override
@@ -130,12 +131,12 @@ public:
     {
       this->Resize(v + 1);
     }
-    this->Values[v] = this->Inherits ? this->Values[parent] : this->OfNewVertices;
+    this->Values[v] = this->Inherits ? this->Values[parent] : this->NewValue;
   }
 
 private:
   T Initial;
-  T OfNewVertices{};
+  T NewValue{};
   bool Inherits;
   LargeVector<T> Values;
 };

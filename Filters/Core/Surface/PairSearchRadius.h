@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#ifndef volumicStarReach_h
-#define volumicStarReach_h
+#ifndef volumicPairSearchRadius_h
+#define volumicPairSearchRadius_h
 
 #include "Core/Surface/SurfaceState.h"
 
@@ -14,12 +14,12 @@ namespace volumic
  * neighbouring faces may be larger. Intersecting faces have corners within the radius for the
  * largest delta of all their corners, so most pairs can be skipped.
  */
-class StarReach
+class PairSearchRadius
 {
 public:
-  StarReach(const SurfaceState& state, int v)
-    : State(state), Most(state.Sizing.Reach(v)),
-      Own(state.Sizing.IsGraded() ? this->Of(v) : this->Most)
+  PairSearchRadius(const SurfaceState& state, int v)
+    : State(state), Most(state.Sizing.SearchRadius(v)),
+      Own(state.Sizing.IsGraded() ? this->OfStar(v) : this->Most)
   {
   }
   /** Return the search radius of the pair with w at this distance. */
@@ -27,12 +27,13 @@ public:
   {
     const bool isNear = squared <= this->Own * this->Own;
     const bool isFar = squared > this->Most * this->Most;
-    return isNear || isFar ? this->Most : std::min(this->Most, std::max(this->Own, this->Of(w)));
+    return isNear || isFar ? this->Most
+                           : std::min(this->Most, std::max(this->Own, this->OfStar(w)));
   }
 
 private:
   /** Return the search radius for the largest delta of a star. */
-  float Of(int v) const
+  float OfStar(int v) const
   {
     const Ring& ring = this->State.Mesh.Rings[v];
     float largest = this->State.Sizing.At(v);
@@ -40,7 +41,7 @@ private:
     {
       largest = std::max(largest, this->State.Sizing.At(ring.Item[i]));
     }
-    return SizingField::ReachInDelta * largest;
+    return SizingField::SearchRadiusInDelta * largest;
   }
 
   const SurfaceState& State;
