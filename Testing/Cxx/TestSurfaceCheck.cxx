@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every check of a given surface and of a live one, each with a surface that only it refuses.
+// Each check with a surface that only this check rejects.
 #include "RemeshTestTools.h"
 
 using namespace volumic;
@@ -27,7 +27,7 @@ IndexedSurface Ball(double x = 0, double radius = 2)
 }
 }
 
-TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
+TEST(SurfaceCheck, AcceptsValidSurfaces)
 {
   EXPECT_EQ(ErrorOf(Ball()), "");
   EXPECT_EQ(ErrorOf(MakeTorus({ 0, 0, 0 }, 5, 2, 20, 10)), "");
@@ -40,7 +40,7 @@ TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
   EXPECT_EQ(ErrorOf(loose), "") << "points without triangles do no harm";
 }
 
-TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
+TEST(SurfaceCheck, RejectsInvalidIndicesAndCoordinates)
 {
   EXPECT_TRUE(Has(ErrorOf({}), "is empty"));
   for (const int corner : { -1, 12, std::numeric_limits<int>::max() })
@@ -57,7 +57,7 @@ TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
   }
 }
 
-TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
+TEST(SurfaceCheck, RejectsDegenerateTriangles)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -67,12 +67,12 @@ TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
   }
 }
 
-TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
+TEST(SurfaceCheck, RejectsOpenNonManifoldAndMisorientedEdges)
 {
   IndexedSurface open = Ball();
   open.Triangles.erase(open.Triangles.begin() + 3);
   EXPECT_TRUE(Has(ErrorOf(open), "is not closed: 3 edges"));
-  // Two tetrahedra that share an edge, though no triangle: every edge else has two triangles.
+  // Two tetrahedra that share an edge but no triangle. Every other edge has two triangles.
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
     { -0.6, -1, 0.5 } };
@@ -84,7 +84,7 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
   EXPECT_TRUE(Has(ErrorOf(twisted), "is not consistently oriented: 3 edges"));
 }
 
-TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
+TEST(SurfaceCheck, RejectsNonManifoldVertices)
 {
   // Two balls with one point in common.
   IndexedSurface surface = Ball();
@@ -100,19 +100,19 @@ TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
   EXPECT_TRUE(Has(ErrorOf(surface), "1 points join several triangle fans"));
 }
 
-TEST(SurfaceCheck, RefusesWhatIsInsideOutOrEnclosesNothing)
+TEST(SurfaceCheck, RejectsNonPositiveVolume)
 {
   EXPECT_TRUE(Has(ErrorOf(InsideOut(Ball())), "is inside out"));
   IndexedSurface mostly = InsideOut(Ball(0, 4));
   AddSurface(mostly, Ball(10));
   EXPECT_TRUE(Has(ErrorOf(mostly), "is inside out"));
-  IndexedSurface pillow; // Two triangles, back to back.
+  IndexedSurface pillow; // Two triangles back to back.
   pillow.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   pillow.Triangles = { { 0, 1, 2 }, { 0, 2, 1 } };
   EXPECT_TRUE(Has(ErrorOf(pillow), "encloses no volume"));
 }
 
-TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
+TEST(SurfaceCheck, RejectsSelfIntersections)
 {
   IndexedSurface crossing = Ball();
   AddSurface(crossing, Ball(2.3));
@@ -121,7 +121,7 @@ TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
   EXPECT_TRUE(Has(ErrorOf(crossing), "intersects itself: " + std::to_string(pairs) + " pairs"));
 }
 
-TEST(SurfaceCheck, RefusesWhatLiesOutsideTheImage)
+TEST(SurfaceCheck, RejectsSurfacesOutsideImage)
 {
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 20 }, 3)), "");
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ -2, 10, 20 }, 3)), "") << "partly";
