@@ -10,11 +10,10 @@
 namespace volumic
 {
 /**
- * Cut of the mesh along a 3-cycle that bounds no face (annular transformation). Both sides are
- * closed with a triangle. chi increases by 2: a component splits, or loses a handle.
- *
- * The old vertices keep the faces to the left of A -> B -> C -> A, their copies get those to the
- * right. Originals and copies coincide until the caller moves them apart.
+ * Cut along a 3-cycle that bounds no face (annular transformation). Both sides are closed with a
+ * triangle. chi increases by 2: a component splits, or loses a handle. The old vertices keep the
+ * faces to the left of A -> B -> C -> A, their copies get those to the right. Originals and copies
+ * coincide until the caller moves them apart.
  */
 struct CycleCut
 {

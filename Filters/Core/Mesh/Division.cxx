@@ -13,7 +13,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices per task. */
 constexpr std::size_t SpanSize = 8192;
 }
 

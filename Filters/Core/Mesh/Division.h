@@ -65,15 +65,13 @@ DivisionNumbers NumberForDivision(
  * Divide all triangles with factor sqrt 3 (the paper's section 5.1). A new vertex at the centroid
  * of each face is joined to its corners, then every edge between two old vertices is flipped. The
  * number of vertices triples, edges get shorter by sqrt 3. Old vertices keep index, position and
- * valence, new ones have valence 6, chi is unchanged.
- *
- * L. Kobbelt published the same refinement as "sqrt(3)-subdivision", SIGGRAPH 2000. There a rule
- * smooths the old vertices.
+ * valence, new ones have valence 6, chi is unchanged. See also L. Kobbelt, "sqrt(3)-subdivision",
+ * SIGGRAPH 2000, which also smooths the old vertices.
  *
  * The flips cut off convex edges and fill concave ones, which can make the surface intersect
  * itself. Therefore an edge of `kept` is not flipped but gets a vertex at its midpoint, and a
  * corner between two such edges is cut off within its face. The surface is unchanged along kept
- * edges, and everywhere if all are kept.
+ * edges.
  *
  * The centroid of face i has the index i plus the number of old vertices. The midpoints come last.
  * `mesh` must have no free slots, and `kept` must refer to it.

@@ -19,8 +19,7 @@ struct EdgeCollapse
    */
   bool IsLegal(const SurfaceMesh& mesh) const;
   /**
-   * Return a third common neighbour of the ends, which makes a 3-cycle that bounds no face, or -1.
-   * Of several the nearest is returned.
+   * Return the nearest third common neighbour of the ends (a 3-cycle that bounds no face), or -1.
    */
   int ThirdCommonNeighbour(const SurfaceMesh& mesh) const;
   /** Apply the collapse. The caller sets the position of Kept. */

@@ -7,9 +7,7 @@
 
 namespace volumic
 {
-/**
- * Flip of (U, V): faces (U, V, A) and (V, U, B) become (A, U, B) and (B, V, A). chi is unchanged.
- */
+/** Flip of (U, V): the faces (U, V, A), (V, U, B) become (A, U, B), (B, V, A). chi stays. */
 struct EdgeFlip
 {
   int U = -1;

@@ -8,9 +8,8 @@
 namespace volumic
 {
 /**
- * Split of the edge (U, V) by a new vertex, which is joined to the two opposite vertices. chi is
- * unchanged. At the midpoint the surface does not change as a point set, so no intersection test is
- * needed.
+ * Split of the edge (U, V). The new vertex is joined to the two opposite vertices. chi is
+ * unchanged. At the midpoint the surface keeps its shape, so no intersection test is needed.
  */
 struct EdgeSplit
 {

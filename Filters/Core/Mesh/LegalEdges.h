@@ -9,10 +9,9 @@
 namespace volumic
 {
 /**
- * Return a closed manifold with its edge lengths brought towards [shortest, longest], in the unit
- * of the points. Longer edges are bisected, which does not change the surface. Shorter edges are
- * collapsed where no face turns by more than 45 degrees. The result may intersect itself: the
- * caller must test it.
+ * Return a closed manifold with edge lengths brought towards [shortest, longest]. Longer edges are
+ * bisected, which keeps the surface. Shorter edges are collapsed where no face turns by more than
+ * 45 degrees. The caller must test the result for self-intersections.
  * @throws std::invalid_argument as SurfaceMesh::Append
  */
 IndexedSurface WithLegalEdges(

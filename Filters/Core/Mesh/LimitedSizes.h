@@ -23,7 +23,7 @@ template <typename Sizes, typename Positions>
 Sizes LimitedSizes(const Sizes& sizes, const Positions& positions, const VertexGrid& grid,
   float least, float gradation, Executor& executor)
 {
-  constexpr std::size_t grain = 2048; // Vertices per task.
+  constexpr std::size_t grain = 2048;
   Sizes limited = sizes;
   executor.For(sizes.size(), grain,
     [&](std::size_t begin, std::size_t end)

@@ -10,9 +10,8 @@
 namespace volumic
 {
 /**
- * Rotation to a space whose axes and diagonals are not aligned with those of the given space.
- * Shapes are often aligned with the axes. Lines along x would then lie in faces and pass through
- * corners.
+ * Rotation that aligns no axis or diagonal with those of the given space. Otherwise lines along x
+ * would lie in faces and pass through corners of axis-aligned shapes.
  */
 class ObliqueRotation
 {

@@ -43,9 +43,7 @@ private:
   /** Return false if the links touch or an edge joins them. */
   bool MeasureLinks(const SurfaceMesh& mesh);
   void ChooseBridgeEdges();
-  /**
-   * Find the best strip from `offset` of the second link. Return whether it costs less than best.
-   */
+  /** Find the best strip from `offset` of the second link. Return whether its cost is < best. */
   bool PlanFrom(int offset, float best, float& cost);
   /** Make a strip that advances evenly along both links. Return its cost. */
   float PlanInStep(int offset);
@@ -54,7 +52,7 @@ private:
   void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
   Ring FirstLink;
-  Ring SecondLink;
+  Ring SecondLink;                               ///< Reversed.
   float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances between the links.
   std::vector<BridgeEdge> BridgeEdges;
   std::vector<BridgeEdge> Candidate;

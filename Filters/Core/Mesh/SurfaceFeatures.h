@@ -20,8 +20,7 @@ struct ComponentFeatures
   double Volume = 0.; ///< Signed: negative for a cavity.
   int Genus = 0;
   Point Centroid = { 0., 0., 0. }; ///< Of the volume; of the area if flat.
-  std::array<double, 6> Inertia = { 0., 0., 0., 0., 0.,
-    0. }; ///< xx yy zz xy yz xz, see ComputeFeatures.
+  std::array<double, 6> Inertia = { 0., 0., 0., 0., 0., 0. }; ///< xx yy zz xy yz xz, see below.
 };
 
 struct SurfaceFeatures
@@ -35,13 +34,11 @@ struct SurfaceFeatures
 };
 
 /**
- * Compute components, areas, volumes and moments of a closed oriented manifold mesh.
- *
- * Inertia is the tensor of the enclosed volume, with density 1, about its centroid. The first three
- * entries are the moments of inertia (xx = integral of y^2 + z^2), the others the products with the
- * sign of the tensor (xy = - integral of x y). For a cavity the tensor has the sign of the volume.
- *
- * The sums are taken in the order of the triangles, so the result does not depend on the executor.
+ * Compute components, areas, volumes and moments of a closed oriented manifold mesh. Inertia is the
+ * tensor of the enclosed volume, with density 1, about its centroid. The first three entries are
+ * the moments of inertia (xx = integral of y^2 + z^2), the others the products with the sign of the
+ * tensor (xy = - integral of x y). For a cavity the tensor has the sign of the volume. The sums are
+ * taken in the order of the triangles, so the result does not depend on the executor.
  */
 SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor = OnThisThread());
 }

@@ -10,7 +10,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices per task. */
 constexpr std::size_t SpanSize = 2048;
 }
 

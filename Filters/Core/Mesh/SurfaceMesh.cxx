@@ -20,7 +20,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices per task. */
 constexpr std::size_t VertexSpan = 8192;
 }
 
@@ -158,7 +157,6 @@ namespace
 {
 using DirectedEdge = std::pair<int, int>;
 
-/** Triangles per task. */
 constexpr std::size_t TriangleSpan = 16384;
 
 /** Triangle corners at each point of a surface. */

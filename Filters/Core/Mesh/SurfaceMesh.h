@@ -158,7 +158,6 @@ public:
       }
     }
   }
-  /** Return the number of faces whose smallest index is in [begin, end). */
   std::size_t CountFaces(std::size_t begin, std::size_t end) const
   {
     std::size_t count = 0;

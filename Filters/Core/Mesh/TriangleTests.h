@@ -16,7 +16,6 @@ struct MeshTriangle
 
 class SurfaceMesh;
 
-/** Return the triangle of three vertices of the mesh. */
 MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 
 /**

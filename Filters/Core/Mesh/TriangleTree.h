@@ -19,8 +19,8 @@ class TriangleTree
 public:
   struct Node
   {
-    Bounds Box; ///< Bounds of its triangles.
-    int Begin;  ///< Range of its triangles in Order.
+    Bounds Box;
+    int Begin; ///< Range of its triangles in Order.
     int End;
     int SecondChild;  ///< Node index; the first child follows its parent. -1: leaf.
     int LargestIndex; ///< Largest index of its triangles.

@@ -41,7 +41,6 @@ public:
   /** Allocate slots for vertices with indices below n. */
   void Resize(std::size_t n);
 
-  /** Remove all vertices. */
   void Clear();
 
   void Insert(int v, const Vector& position);

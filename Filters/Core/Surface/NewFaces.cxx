@@ -25,7 +25,6 @@ constexpr float EdgeTolerance = 1.1f;
 /** Factor that makes a rounded length an upper bound. */
 constexpr float AboveRounding = 1.0001f;
 
-/** Vertices per task. */
 constexpr std::size_t TestedSpan = 512;
 
 /** A new face with a bounding box and a plane in float, which exclude most intersections. */

@@ -21,7 +21,6 @@ namespace
 constexpr float LeastClearance = 2e-3f;
 /** Clearance that the triangle test requires at first, so that later tests can be skipped. */
 constexpr float TestedClearance = 0.01f;
-/** Vertices per task. */
 constexpr std::size_t TestedSpan = 64;
 /** Clearance along the normals above which the line between the vertices is not tested. */
 constexpr float SufficientClearance = 0.02f;

@@ -25,7 +25,6 @@ namespace volumic
 class SizingField
 {
 public:
-  /** In units of delta. */
   static constexpr float LongestEdgeInDelta = 2.5f;
   /** Reduction factor of the edge length in a division, eq. (8). */
   static constexpr double DivisionFactor = 1.7320508075688772;
@@ -126,7 +125,7 @@ public:
   float SmallestSearchRadius() const { return SearchRadiusInDelta * this->LevelDelta; }
   float LargestSearchRadius() const { return SearchRadiusInDelta * this->Largest(); }
 
-  /** Return the distance below which a triangle with corner v intersects another triangle. */
+  /** Return the distance below which triangles at v count as intersecting. */
   double Contact(int) const { return ContactInDelta * this->LevelDelta; }
 
 private:

@@ -14,7 +14,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices per task. */
 constexpr std::size_t VertexSpan = 8192;
 /**
  * Numbers of free slots: minimum per block with vertices, and total shared by all such blocks, as a

@@ -29,7 +29,7 @@ struct BlockPass
   Box Moving;    ///< Only vertices in it may move. EditContext::Region limits edits.
   Box Written;   ///< Nothing is changed outside.
   EditContext Context;
-  LargeComponents Large; ///< At the begin of the pass.
+  LargeComponents Large; ///< At the start of the pass.
 
   /** The range may contain free slots. */
   int End() const { return this->Context.Slots.Next; }
@@ -41,7 +41,7 @@ struct BlockPass
  * each array, and the rest can be out of memory (ScratchMemory). Vertices are renumbered only
  * between sweeps, if one has left its block or few slots are free.
  *
- * The result of a pass depends only on the vertices in and about the block at its begin. Therefore
+ * The result of a pass depends only on the vertices in and about the block at its start. Therefore
  * blocks that do not touch may be processed concurrently. Blocks that touch are processed in the
  * order of eight colours: along each axis even indices before odd ones. This holds for any number
  * of iterations per pass:

@@ -21,7 +21,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices per task. */
 constexpr std::size_t JoinedSpan = 4096;
 
 void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& executor)
@@ -82,7 +81,6 @@ std::vector<int> LabelConnected(
   return smallest;
 }
 
-/** Vertices per task. */
 constexpr std::size_t CrossedSpan = 8192;
 
 Point PointAt(const Vector& p)

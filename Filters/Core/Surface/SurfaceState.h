@@ -106,8 +106,7 @@ public:
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
   /** Position before the last displacement, free of intersections. */
   VertexProperty<Vector> PreviousPosition{ this->Properties, Vector() };
-  VertexProperty<Vector> Anchor{ this->Properties,
-    Vector() }; ///< Position of its last visible motion.
+  VertexProperty<Vector> Anchor{ this->Properties, Vector() };      ///< At its last visible motion.
   VertexProperty<float> FieldValue{ this->Properties, 0.f };        ///< When last evaluated.
   VertexProperty<float> Displacement{ this->Properties, 0.f, 0.f }; ///< Length, in this iteration.
 
@@ -120,7 +119,7 @@ public:
   VertexProperty<std::uint8_t> ConvergedIterations{ this->Properties, 0, 0 };
   /** Increases with each rollback, decreases otherwise. */
   VertexProperty<std::uint8_t> RollbackCount{ this->Properties, 0, 0 };
-  /** Edited or rolled back since the begin of the regularisation. */
+  /** Edited or rolled back since the start of the regularisation. */
   VertexProperty<std::uint8_t> Disturbed{ this->Properties, 0, 1 };
 
   // Shape: UpdateShape().
@@ -131,12 +130,13 @@ public:
   VertexProperty<float> EdgeLengthSum{ this->Properties, 0.f, 0.f };
   VertexProperty<std::uint8_t> RemeshFlags{ this->Properties, 0, 0 }; ///< Bits of RemeshFlag.
 
+  // Proximity.
   /** Motion of its star since its last test; NeverTested: must be tested. */
   VertexProperty<float> MotionSinceTest{ this->Properties, NeverTested, NeverTested };
-  VertexProperty<float> ClearanceAtTest{ this->Properties, 0.f, 0.f }; ///< Proximity.
+  VertexProperty<float> ClearanceAtTest{ this->Properties, 0.f, 0.f };
   /** Whether an iteration like the last one would use up little of the clearance. */
   VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
-  /** Part of another sheet of the surface lies within the search radius. */
+  /** A part of the surface with opposed normals lies within the search radius. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
   // Grading: GradedSizes. A split or a collapse interpolates it.
