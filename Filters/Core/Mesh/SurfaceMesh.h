@@ -23,7 +23,7 @@ constexpr std::int64_t NumberOfEdges(std::int64_t vertices, std::int64_t eulerCh
   return 3 * (vertices - eulerCharacteristic);
 }
 
-/** Neighbours of a vertex, counter-clockwise from outside. One cache line bounds the valence. */
+/** Neighbours of a vertex, counter-clockwise from outside. A cache line limits the valence. */
 struct alignas(64) Ring
 {
   static constexpr int Capacity = 15;

@@ -65,7 +65,7 @@ public:
     }
   }
 
-  /** Return the winding number about a point of the triangles with counts(triangle). */
+  /** Return the winding number of the triangles with counts(triangle) about a point. */
   template <typename Counts>
   int WindingNumber(const Point& point, const Counts& counts) const
   {

@@ -34,9 +34,9 @@ inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
   const float cw = m.Cosine;
   const float sv = std::sqrt(std::max(0.f, 1 - cv * cv));
   const float sw = std::sqrt(std::max(0.f, 1 - cw * cw));
-  const float cosine = cv * cw - sv * sw; // Of the sum of the two opening angles.
+  const float cosine = cv * cw - sv * sw; // Of the sum of both half-angles.
   const float sine = sv * cw + cv * sw;
-  // Opposed if the angle between the axes plus both opening angles exceeds 150 degrees.
+  // Opposed if the angle between the axes plus both half-angles exceeds 150 degrees.
   if (cosine < cosine150 || cv < 0 || cw < 0)
   {
     return true;

@@ -58,7 +58,7 @@ private:
   std::vector<Candidate> Candidates;
 };
 
-/** Return the push away from vertices nearer than lambda delta but far on the surface. */
+/** Return the push away from vertices that violate the clearance lambda delta of eq. (1). */
 Vector PushAt(const SurfaceState& state, int v);
 }
 
