@@ -149,7 +149,7 @@ std::vector<AttractingPoint> AttractingPointsOf(
   {
     AttractingPoint point;
     // There the field still ramps down to the background.
-    point.Place = CheckInside(WorldOf(port2, id), id, space, size, 0);
+    point.Position = CheckInside(WorldOf(port2, id), id, space, size, 0);
     point.Weight = NumberAt(port2, "Weight", id, 1.0);
     point.Radius = NumberAt(port2, "Radius", id, 0.0) / space.WorldUnit();
     attracting.push_back(point);

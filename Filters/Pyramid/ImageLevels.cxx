@@ -124,7 +124,7 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
   const auto reduce = [&](std::size_t h, const auto* below, const auto& marks, Real* made)
   {
     const std::string text = Join("Level ", h, " of ", levels.size() - 1);
-    const LevelProgress report = [&](double done)
+    const ProgressCallback report = [&](double done)
     { return progress(before[h - 1] + done * (before[h] - before[h - 1]), text); };
     if (!report(0.0))
     {

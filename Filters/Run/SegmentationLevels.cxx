@@ -58,7 +58,7 @@ void SegmentationLevels::ReadPoints(const SegmentationRequest& request)
          this->GetComputationalSpace(), this->Voxels.SizeOf(0)))
   {
     points.emplace_back();
-    points.back().Place = place;
+    points.back().Position = place;
   }
   if (!points.empty() && settings.Options.PointAttractionWeight > 0.0)
   {
@@ -155,7 +155,7 @@ bool SegmentationLevels::ContainsObject(int level, const SurfaceOptions& options
     return found->second;
   }
   const PartSize least =
-    options.RecoverMissedParts ? PartSize{ options.MinimumPartSize, 1 } : PartThatHolds;
+    options.RecoverMissedParts ? PartSize{ options.MinimumPartSize, 1 } : SmallestPart;
   return this->Holds[level] =
            this->Voxels.ContainsPart(level, least, options.IsoValue, options.ObjectIsBright);
 }

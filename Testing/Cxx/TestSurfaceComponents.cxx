@@ -197,10 +197,10 @@ TEST(ComponentWatch, WatchesSmallComponentsInRange)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
-  const IndexedSurface speck = Ball({ 30, 0, 0 }, 0.8);
-  Fill(state, { large, speck, Ball({ 40, 0, 0 }, 0.8) });
+  const IndexedSurface small = Ball({ 30, 0, 0 }, 0.8);
+  Fill(state, { large, small, Ball({ 40, 0, 0 }, 0.8) });
   const int first = static_cast<int>(large.Points.size());
-  const int size = static_cast<int>(speck.Points.size());
+  const int size = static_cast<int>(small.Points.size());
   ASSERT_GT(first, 800);
   ASSERT_LE(size, 24);
   state.FieldValue.Fill(-1.f); // All on the wrong side.

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Includes keep to the rooms of Documentation/architecture.md, and folders to its sizes. Needs no
-build, and no VTK."""
+"""Includes, terms and sizes of folders are those of Documentation/architecture.md. Needs no build and
+no VTK."""
 
 import os
 import re
@@ -57,6 +57,21 @@ class RoomsTest(unittest.TestCase):
                       if room and name != MADE_BY_CMAKE
                       and os.path.dirname(name) not in may_include[room] | {room}]
         self.assertEqual(wrong, [])
+
+
+class TermsTest(unittest.TestCase):
+    def test_words_that_terms_replace_are_not_used(self):
+        """In no text file but the page that lists them and the changelog, which names old ones."""
+        words = [word for row in table_below("Terms") for word in row[-1]]
+        self.assertGreater(len(words), 20)
+        pattern = re.compile("|".join(rf"\b{word}\b" for word in words).replace(" ", r"[\s*/#]+"))
+        texts = [os.path.join(top, name) for top, folders, names in os.walk(ROOT)
+                 for name in names if name.endswith((*COUNTED, ".md", ".yml", ".toml", ".ui"))
+                 if not re.search(r"/(build|\.\w+)(/|$)", top[len(ROOT):])]
+        texts = [path for path in texts if path != PAGE and os.path.basename(path) != "CHANGELOG.md"]
+        found = [f"{os.path.relpath(path, ROOT)}: {match.group(0)}"
+                 for path in sorted(texts) for match in pattern.finditer(read(path))]
+        self.assertEqual(found, [], "use the term in the first column of the table")
 
 
 class SizesTest(unittest.TestCase):

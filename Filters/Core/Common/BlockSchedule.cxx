@@ -16,25 +16,25 @@ BlockSchedule::BlockSchedule(
   std::vector<int> order, const std::function<std::vector<int>(int item)>& neighbours)
   : Items(std::move(order)), Earlier(this->Items.size(), 0), Later(this->Items.size())
 {
-  std::vector<int> places(this->Items.size());
-  for (std::size_t place = 0; place < this->Items.size(); ++place)
+  std::vector<int> positions(this->Items.size());
+  for (std::size_t position = 0; position < this->Items.size(); ++position)
   {
-    places[this->Items[place]] = static_cast<int>(place);
+    positions[this->Items[position]] = static_cast<int>(position);
   }
-  for (std::size_t place = 0; place < this->Items.size(); ++place)
+  for (std::size_t position = 0; position < this->Items.size(); ++position)
   {
-    for (const int other : neighbours(this->Items[place]))
+    for (const int other : neighbours(this->Items[position]))
     {
-      if (places[other] > static_cast<int>(place))
+      if (positions[other] > static_cast<int>(position))
       {
-        this->Later[place].push_back(places[other]);
-        ++this->Earlier[places[other]];
+        this->Later[position].push_back(positions[other]);
+        ++this->Earlier[positions[other]];
       }
     }
   }
 }
 
-bool BlockSchedule::Run(Executor& executor, const std::function<void(int item)>& visit,
+bool BlockSchedule::Run(Executor& executor, const std::function<void(int item)>& process,
   const std::function<bool(std::size_t done)>& goOn) const
 {
   std::size_t done = 0;
@@ -43,36 +43,36 @@ bool BlockSchedule::Run(Executor& executor, const std::function<void(int item)>&
     return std::all_of(this->Items.begin(), this->Items.end(),
       [&](int item)
       {
-        visit(item);
+        process(item);
         return goOn(++done);
       });
   }
   const std::thread::id caller = std::this_thread::get_id();
-  bool goesOn = true; // Changed by the calling thread only.
-  std::mutex mutex;   // Of the number done and the next two.
+  bool goesOn = true; // Written by the calling thread only.
+  std::mutex mutex;   // Guards done, waits and ready.
   std::vector<int> waits = this->Earlier;
-  std::priority_queue<int, std::vector<int>, std::greater<int>> ready; // Places in the order.
+  std::priority_queue<int, std::vector<int>, std::greater<int>> ready; // Positions.
   executor.Execute(
     [&]
     {
       tbb::task_group group;
-      // As many tasks as items are ready: each takes the first of these in the order.
-      std::function<void()> visitNext;
-      const auto add = [&](int place)
+      // One task per ready item. Each task takes the first ready item in the order.
+      std::function<void()> processNext;
+      const auto add = [&](int position)
       {
-        ready.push(place);
-        group.run(visitNext);
+        ready.push(position);
+        group.run(processNext);
       };
-      visitNext = [&]
+      processNext = [&]
       {
         std::unique_lock<std::mutex> lock(mutex);
         const bool isCaller = std::this_thread::get_id() == caller;
-        const auto place = static_cast<std::size_t>(ready.top());
+        const auto position = static_cast<std::size_t>(ready.top());
         ready.pop();
         lock.unlock();
-        visit(this->Items[place]);
+        process(this->Items[position]);
         lock.lock();
-        for (const int later : this->Later[place])
+        for (const int later : this->Later[position])
         {
           if (--waits[later] == 0)
           {
@@ -88,16 +88,16 @@ bool BlockSchedule::Run(Executor& executor, const std::function<void(int item)>&
         }
       };
       std::unique_lock<std::mutex> lock(mutex);
-      for (std::size_t place = 0; place < this->Items.size(); ++place)
+      for (std::size_t position = 0; position < this->Items.size(); ++position)
       {
-        if (this->Earlier[place] == 0)
+        if (this->Earlier[position] == 0)
         {
-          add(static_cast<int>(place));
+          add(static_cast<int>(position));
         }
       }
       lock.unlock();
       group.wait();
-      lock.lock(); // Tells ThreadSanitizer that all have ended.
+      lock.lock(); // Shows ThreadSanitizer that all tasks have ended.
     });
   return goesOn;
 }

@@ -12,39 +12,38 @@
 namespace volumic
 {
 /**
- * Items that are visited once each, where some touch: those that do are visited one after the
- * other, in a fixed order, all others at the same time. What comes of it is what one thread alone
- * would make, visiting them in that order.
+ * Parallel schedule of items, some of which are neighbours. Neighbours are processed one after the
+ * other in a fixed order, all other items in parallel. The result is that of one thread which
+ * processes all items in that order.
  *
- * Nothing waits for more than what it touches: a thread takes the first item, in the order, all of
- * whose earlier neighbours have been visited.
+ * A thread takes the first item whose earlier neighbours have all been processed.
  */
 class BlockSchedule
 {
 public:
   /**
-   * @param order      all items, from 0, in the order of their visits
-   * @param neighbours of an item: those that it touches, without itself; it touches them, too
+   * @param order      all items, from 0, in the order of processing
+   * @param neighbours returns the neighbours of an item, without itself; the relation is symmetric
    */
   BlockSchedule(
     std::vector<int> order, const std::function<std::vector<int>(int item)>& neighbours);
 
-  /** The items in their order. */
+  /** Return the items in the order of processing. */
   const std::vector<int>& Order() const { return this->Items; }
   /**
-   * Call visit(item) for all items on the threads of an executor, and return when all calls have
-   * ended. The first exception of a visit is rethrown after the visits under way have ended.
-   * @param goOn called with the number of visits done, on the calling thread, after each visit that
-   *             this thread makes; false skips the visits that have not begun
-   * @return whether goOn has always returned true
+   * Call process(item) for all items on the threads of an executor, and return when all calls have
+   * ended. The first exception is rethrown after the calls in progress have ended.
+   * @param goOn called on the calling thread, with the number of items done, after each item that
+   *             this thread has processed; false skips the items that have not begun
+   * @return false if goOn has returned false
    */
-  bool Run(Executor& executor, const std::function<void(int item)>& visit,
+  bool Run(Executor& executor, const std::function<void(int item)>& process,
     const std::function<bool(std::size_t done)>& goOn) const;
 
 private:
   std::vector<int> Items;
-  std::vector<int> Earlier; ///< By place in the order: how many of those it touches come before it.
-  std::vector<std::vector<int>> Later; ///< By place: the places of those that come after it.
+  std::vector<int> Earlier;            ///< number of earlier neighbours, by position in the order
+  std::vector<std::vector<int>> Later; ///< positions of the later neighbours, by position
 };
 }
 

@@ -11,15 +11,15 @@
 
 namespace volumic
 {
-/** What CancellableExecutor throws to cancel a run. */
+/** Thrown by CancellableExecutor to cancel a run. */
 struct OperationCancelled
 {
 };
 
 /**
- * Check for cancellation within the loops of another executor, after each chunk of the thread that
- * has constructed it. If `goOn` returns false, For() throws OperationCancelled and skips what has
- * not begun. Results do not depend on it.
+ * Executor that tests for cancellation within the loops of another executor, after each chunk of
+ * the constructing thread. If `goOn` returns false, For() skips the remaining chunks and throws
+ * OperationCancelled. Otherwise results are those of the other executor.
  */
 class CancellableExecutor final : public Executor
 {

@@ -39,7 +39,7 @@ namespace volumic
 namespace
 {
 std::mutex theMutex;
-std::vector<std::string> theDirectories; ///< Of all objects that exist; the last one is used.
+std::vector<std::string> theDirectories; ///< of all existing objects; the last one is used
 
 std::string DirectoryInUse()
 {
@@ -48,7 +48,7 @@ std::string DirectoryInUse()
 }
 
 #ifdef __SANITIZE_ADDRESS__
-// It guards what is about an array of the heap, not what is about a mapping.
+// AddressSanitizer guards the surroundings of heap arrays, but not of mappings.
 constexpr bool HeapIsGuarded = true;
 
 bool IsOnGuardedHeap(const void* memory)
@@ -91,7 +91,7 @@ void FreeOnHeap(void* memory) noexcept
 }
 
 #ifdef VOLUMIC_MAPS_FILES
-/** A file that no directory shows. */
+/** File without a name. */
 class ScratchFile
 {
 public:

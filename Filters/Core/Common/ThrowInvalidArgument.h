@@ -9,14 +9,14 @@
 
 namespace volumic
 {
-/** An input or an option that cannot be used. Other exceptions are errors of the program. */
+/** Invalid input or option. Other exceptions are errors of the program. */
 class InvalidArgument : public std::invalid_argument
 {
 public:
   using std::invalid_argument::invalid_argument;
 };
 
-/** Throws a Refusal with the parts as its message: what is wrong, and the way out. */
+/** Throw InvalidArgument. The parts form the message: what is wrong, and how to fix it. */
 template <typename... Parts>
 [[noreturn]] void ThrowInvalidArgument(const Parts&... parts)
 {

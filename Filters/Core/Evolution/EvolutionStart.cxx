@@ -58,13 +58,13 @@ RecoverySurfaces FindParts(
   RecoverySurfaces cover = look();
   if (cover.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
   {
-    DivideNear(e, cover.Boundary); // Else nothing that is near would be clear of it.
+    DivideNear(e, cover.Boundary); // Otherwise there is no room for near recovery surfaces.
     cover = look();
   }
   return cover;
 }
 
-/** Adds a cover, or, where it intersects something, what is free of that of a safe one. */
+/** Add recovery surfaces. Intersecting components are replaced by those of RecoveryShape::Safe. */
 template <typename MakeSafe>
 void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
 {
@@ -79,11 +79,11 @@ void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
   ++e.Unchecked;
 }
 
-/** Encloses what the surface has lost. @param isStart all of the object, however small its parts */
+/** Recover missed parts. @param isStart start with all parts of the object, of any size */
 void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
-  // Without an isopotential there is no object's side to look for.
+  // Without an iso-value the object is undefined.
   if (!options.Drive().HasObject && !isStart)
   {
     return;
@@ -181,14 +181,14 @@ void Divide(Evolution& e, const ConvergedSurface& rest)
   e.Unchecked = rest.Unchecked;
   const double coarse = rest.Delta;
   Enter(e);
-  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
-  // the mesh's, sqrt 3.
+  // The number of divisions that brings delta nearest to the new one: 1 for a pyramid factor of
+  // sqrt 3.
   const int divisions = static_cast<int>(std::lround(
     std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
-  // After each of these steps the surface is one to hand over.
+  // After each of these steps the surface is a valid result.
   const bool isGraded = e.Task.Grading.IsRequested();
-  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
-  // the image the field is that of the level before.
+  // Parts that are too thin for the undivided mesh vanish in a descent, and must be recovered.
+  // Outside the image the field is that of the coarser level.
   const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverMissedParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {

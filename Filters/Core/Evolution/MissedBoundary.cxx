@@ -13,17 +13,17 @@ namespace volumic
 {
 namespace
 {
-/** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
+/** Mean ratio of the voxel faces of a smooth surface to its area, over all directions. */
 constexpr double FacesOverArea = 1.5;
-/** A part is missed where the surface lacks more than this share of its boundary. */
+/** A part is missed if the surface lacks more than this fraction of its boundary. */
 constexpr double MissedShare = 0.5;
-/** Patches that one thread looks at at a time. */
+/** Patches per span of a parallel loop. */
 constexpr std::size_t PatchSpan = 256;
 }
 
 namespace
 {
-/** Area of the faces that a voxel of a part has towards the other side. */
+/** Return the area of the faces of a voxel between object and background. */
 double BoundaryOf(const std::array<int, 3>& place, const Field& field, bool isObject)
 {
   const LevelImage& image = field.Image();

@@ -22,13 +22,13 @@ namespace volumic
 {
 namespace
 {
-/** The longest voxel that is looked at by its middle alone, in units of the level. */
+/** Longest voxel with a single sample at its centre, in units of the level. */
 constexpr double LongestSampled = 1.5;
-/** Shares of the whole work that are done after its steps, as the questions tell them. */
+/** Progress after each step. */
 constexpr double AfterMissed = 0.7;
 constexpr double AfterDistances = 0.9;
 
-/** The places that stand for a voxel. */
+/** Sample points of a voxel. */
 class VoxelSamples
 {
 public:
@@ -42,8 +42,8 @@ public:
   }
 
   /**
-   * Calls visit(point) for the middle of a voxel, or, where it is longer than LongestSampled along
-   * an axis, for the middles of the fewest equal boxes of it that are not.
+   * Call visit(point) for the centre of a voxel, or for the centres of equal boxes of it with edges
+   * of at most LongestSampled.
    */
   template <typename Visit>
   void VisitAll(const std::array<int, 3>& voxel, const Visit& visit) const
@@ -59,23 +59,24 @@ public:
 
 private:
   std::array<double, 3> Step;
-  std::array<int, 3> Samples; ///< Of a voxel along each axis.
+  std::array<int, 3> Samples; ///< per voxel, along each axis
 };
 
-/** Distance of the points of the cover's lattice, in delta. */
+/** Pitch of the recovery lattice, in delta. */
 constexpr double Pitch = 1.6;
-/** Lengths of the cover's edges, in delta: shorter ones are collapsed, longer ones halved. */
+/** Edge lengths of recovery surfaces, in delta: shorter ones are collapsed, longer ones split. */
 constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
-/** How far the cover lies from a lost voxel at most, and beyond its isopotential, in units. */
+/** Largest distance of a recovery surface from a missed voxel, and from the isosurface, in units.
+ */
 constexpr double Farthest = 1.4;
 constexpr double Margin = 0.5;
-/** A voxel that is so deep inside, in units, is nearest to no point outside. */
+/** Depth of a voxel, in units, from which on it is nearest to no point outside. */
 constexpr double Deep = 1.;
-/** How far it lies at least from the vertices of the surface that is there, in delta. */
+/** Smallest distance from vertices of the existing surface, in delta. */
 constexpr float Clear = 1.9f;
 
-/** Two triangles that intersect, one of them about v, have corners nearer than this. */
+/** Intersecting triangles, one of them with corner v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
 {
   const float least = state.Sizing.SmallestSearchRadius();
@@ -83,7 +84,7 @@ float ReachAbout(const SurfaceState& state, int v)
   {
     return least;
   }
-  // That of a surface whose longest edges are those of the faces about it.
+  // The reach for the longest edges of the faces around it.
   const SurfaceMesh& mesh = state.Mesh;
   const Ring& ring = mesh.Rings[v];
   float squared = 0.f;
@@ -97,7 +98,8 @@ float ReachAbout(const SurfaceState& state, int v)
     std::sqrt(squared) * (SizingField::SearchRadiusInDelta / SizingField::LongestEdgeInDelta));
 }
 
-/** The cover of lost voxels: where the distance to the nearest one, less a radius, is zero. */
+/** Recovery surface of missed voxels: the zero set of the distance to the nearest one, minus a
+ * radius. */
 class RecoverySurfaceMaker
 {
 public:
@@ -108,7 +110,7 @@ public:
   {
   }
 
-  /** @param covered how many parts it has @return empty where it is asked to stop */
+  /** @param covered number of enclosed parts @return empty if cancelled */
   IndexedSurface Make(
     RecoveryShape shape, Executor& executor, int& covered, const ProgressCallback& goOn)
   {
@@ -137,10 +139,10 @@ public:
   }
 
 private:
-  /** Layers of bricks between two questions whether to go on. */
+  /** Layers of bricks between two calls of the progress callback. */
   static constexpr std::size_t LayersPerBatch = 16;
 
-  /** Calls visit(voxel, part) for those of some runs. */
+  /** Call visit(voxel, part) for the voxels of some runs. */
   template <typename Visitor>
   void ForVoxels(std::size_t begin, std::size_t end, const Visitor& visit) const
   {
@@ -169,7 +171,7 @@ private:
     return box;
   }
 
-  /** The runs whose voxels may be as near to a layer along z. */
+  /** Return the runs within reach of a layer along z. */
   std::array<std::size_t, 2> RunsNear(double low, double high) const
   {
     const double step = this->TheField.Image().Step[2];
@@ -185,7 +187,7 @@ private:
     return { firstOf(low - step), firstOf(high + 2. * step) };
   }
 
-  /** Writes the distances of the points in a layer of bricks. */
+  /** Compute the distances of the points in a layer of bricks. */
   void Measure(int layer)
   {
     const int firstLayer = layer * DistanceLattice::BrickSide;
@@ -235,7 +237,8 @@ private:
     }
   }
 
-  /** How much further from the surface that is there a place is than the cover may be. */
+  /** Return the distance of a position from the existing surface, minus the smallest allowed one.
+   */
   float NearestRoom(const Point& p) const
   {
     const Vector place(
@@ -253,7 +256,7 @@ private:
     return room;
   }
 
-  /** Has distances be at least what keeps the cover clear of the surface that is there. */
+  /** Clamp distances to keep the recovery surface clear of the existing surface. */
   void KeepClear(int layer)
   {
     const float far = static_cast<float>(0.9 * this->Lattice.Pitch());
@@ -267,8 +270,7 @@ private:
       });
   }
 
-  /** Parts without a point of the lattice get the nearest to one of theirs. @return how many have
-   */
+  /** Give parts without a lattice point the nearest one. @return number of enclosed parts */
   int TakeSmallParts(const std::function<bool(const Point& place)>& isClear)
   {
     std::vector<char> isEnclosed(static_cast<std::size_t>(this->Missed.Parts), 0);

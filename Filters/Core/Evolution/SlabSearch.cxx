@@ -12,8 +12,8 @@ namespace volumic
 namespace
 {
 /**
- * Rows pass beside the voxels by so much, in voxels along y and z, so that hardly any hits an edge
- * or a corner of a surface on round numbers.
+ * Offset of rows from the voxels along y and z, in voxels. Rows then hardly hit edges or corners of
+ * surfaces with round coordinates.
  */
 constexpr double Aside[2] = { 1.2345e-4, 1.7 * 1.2345e-4 };
 
@@ -72,7 +72,7 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
   {
     if (crossings[i].Row != crossings[i + 1].Row)
     {
-      ++i; // Odd ones don't exist on a closed surface.
+      ++i; // A closed surface has no odd crossings.
       continue;
     }
     const auto x = [&](std::size_t n) { return static_cast<float>(crossings[n].Where.X); };
@@ -85,7 +85,7 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
 
 void SlabSearch::CloseNear(int v)
 {
-  // Whatever the distances of the voxels.
+  // Independent of the voxel distances.
   const double width = NearUnits * this->TheField.Image().Unit;
   const auto& step = this->TheField.Image().Step;
   const Vector& p = this->State.Mesh.Position[v];

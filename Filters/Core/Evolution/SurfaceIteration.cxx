@@ -15,9 +15,9 @@ namespace volumic
 {
 namespace
 {
-/** A displacement, in delta, that uses little of a vertex's slack. */
+/** A displacement, in delta, that is small relative to the clearance of a vertex. */
 constexpr float SlowDisplacement = 0.08f;
-/** Collapses after which a component may have become a small one. */
+/** Number of collapses after which a component may be small. */
 constexpr int SuspiciousCollapses = 40;
 
 const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
@@ -41,7 +41,8 @@ SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const 
 {
   SurfaceState& s = this->State;
   this->CollectActive();
-  // What others have edited or moved since; and of what has contacts, which: no visit remembers.
+  // Vertices that other passes have edited or moved, and vertices with contacts: passes keep no
+  // pairs.
   std::vector<int> crowded;
   for (const int v : this->Active)
   {
@@ -71,7 +72,7 @@ SurfaceIteration::~SurfaceIteration()
 
 void SurfaceIteration::CollectActive()
 {
-  // Where an edge has grown beyond measure its ends wait until it is split.
+  // Ends of an edge that is too long do not move until it is split.
   const SurfaceState& s = this->State;
   this->Active.clear();
   for (int v = this->Visit.First; v < this->Visit.End(); ++v)
@@ -86,7 +87,7 @@ void SurfaceIteration::CollectActive()
 
 void SurfaceIteration::CollectWorking()
 {
-  // The active vertices and the corners of all faces that move with them.
+  // The active vertices and all corners of their faces.
   SurfaceState& s = this->State;
   for (const int v : this->Working)
   {
@@ -117,8 +118,8 @@ void SurfaceIteration::AddUnmoved(int v)
 
 bool SurfaceIteration::IsDirty(int v) const
 {
-  // A star that had some room when it was examined needs no new look before it has used half of
-  // it: whatever comes near has used half of its own and is examined itself.
+  // A star needs no new intersection test until its motion exceeds half of its clearance. A star
+  // that comes near has then exceeded half of its own clearance, and is tested itself.
   return this->State.MotionSinceTest[v] > 0.5f * this->State.ClearanceAtTest[v];
 }
 
@@ -155,7 +156,7 @@ void SurfaceIteration::UpdateChanged(SurfaceState& state, std::vector<int> chang
   {
     if (state.Mesh.IsAlive(v))
     {
-      state.MotionSinceTest[v] = SurfaceState::NeverTested; // Its star is another one.
+      state.MotionSinceTest[v] = SurfaceState::NeverTested; // Its star has changed.
       state.UpdateShape(v);
     }
   }
@@ -163,7 +164,7 @@ void SurfaceIteration::UpdateChanged(SurfaceState& state, std::vector<int> chang
 
 void SurfaceIteration::RollBackVertex(int v)
 {
-  constexpr int most = 200; // Of what fits into the count.
+  constexpr int most = 200; // within the range of the counter
   SurfaceState& s = this->State;
   s.MoveTo(v, s.PreviousPosition[v]);
   s.Velocity[v] = Vector();
@@ -174,8 +175,8 @@ void SurfaceIteration::RollBackVertex(int v)
 
 void SurfaceIteration::RollBack()
 {
-  // The mesh before the displacement was free of intersections, and so is any mesh all of whose
-  // vertices have gone back: roll back more and more about each intersection until none is left.
+  // The mesh before the displacement had no intersections. Roll back more and more vertices around
+  // each intersection until none is left.
   SurfaceState& s = this->State;
   const std::vector<Proximity::FacePair>* intersections = &this->Near.Intersections();
   std::vector<int> back;
@@ -200,10 +201,10 @@ void SurfaceIteration::RollBack()
     }
     if (round == rounds - 1)
     {
-      back = this->Working; // All that has moved: the mesh before, which was free of them.
+      back = this->Working; // All moved vertices: restores the mesh before the displacement.
     }
     SortUnique(back);
-    // What is not in the working list has not moved; its previous position is an old one.
+    // Vertices that are not in Working have not moved. Their previous positions are outdated.
     back.erase(
       std::remove_if(back.begin(), back.end(), [&s](int v) { return !(s.Marks[v] & IsWorking); }),
       back.end());
@@ -229,15 +230,15 @@ void SurfaceIteration::SplitBeforeVerification()
   this->Edits.Split(this->Working);
   for (std::size_t i = unsplit; i < this->Working.size(); ++i)
   {
-    s.Marks[this->Working[i]] |= IsWorking; // New, with a previous position of its own.
+    s.Marks[this->Working[i]] |= IsWorking; // A new vertex has a previous position, too.
   }
   for (const int v : this->Edits.Changed())
   {
     this->AddUnmoved(v);
   }
   UpdateChanged(s, this->Edits.TakeChanged());
-  // What could not be split gets no longer: verification relies on edges that are legal.
-  // Where one goes back, an edge to another one that has moved with it may become too long.
+  // Edges that could not be split must not grow, because verification requires legal edges. The
+  // rollback of a vertex may make an edge to another moved vertex too long.
   std::vector<int> stars;
   do
   {
@@ -269,7 +270,7 @@ void SurfaceIteration::RestoreConstraints()
     std::uint8_t& count = s.RollbackCount[v];
     count = static_cast<std::uint8_t>(count > 0 ? count - 1 : 0);
   }
-  // What was rolled back, or drawn back from a cut, may have made edges too long.
+  // Rollbacks and cuts may have made edges too long.
   const std::vector<int>& changed = this->Edits.Changed();
   this->Working.insert(this->Working.end(), changed.begin(), changed.end());
   UpdateChanged(s, this->Edits.TakeChanged());
@@ -279,9 +280,8 @@ void SurfaceIteration::RestoreConstraints()
 
 void SurfaceIteration::WatchComponents()
 {
-  // A component may become a small one without any change of topology. After a merge a small cavity
-  // may be a part of the main component, and must not be judged as the cavity it was: labels are
-  // made afresh before anything is deleted.
+  // A component may become small without a change of topology. After a merge, a small cavity may be
+  // part of the main component. Therefore components are labelled again before any deletion.
   EditContext& share = this->Visit.Context;
   const EditCounts& then = this->Labelled;
   if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
