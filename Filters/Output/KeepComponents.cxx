@@ -32,7 +32,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
   const LargeVector<Point>& points, const LargeVector<Triangle>& triangles,
   const SurfaceFeatures& features, Executor& executor)
 {
-  const std::vector<std::vector<int>> about = ComponentsAbout(
+  const std::vector<std::vector<int>> about = EnclosingComponents(
     places, own, triangles.size(),
     [&](std::size_t begin, std::size_t end, const auto& visit)
     {

@@ -93,7 +93,7 @@ void RunBlockPasses(
       opened.Large = e.Components.Large();
     }
     run(opened);
-    const EditCounts counts = opened.Share.Counts;
+    const EditCounts counts = opened.Context.Counts;
     e.Blocks->Close(std::move(opened));
     const std::lock_guard<std::mutex> lock(counting);
     e.State.Counts += counts;
@@ -187,7 +187,7 @@ void SplitLongEdges(Evolution& e, Sweep sweep)
     RunBlockPasses(e, sweep,
       [&e](BlockPass& pass)
       {
-        Remesher remesher(e.State, nullptr, false, &pass.Share);
+        Remesher remesher(e.State, nullptr, false, &pass.Context);
         std::vector<int> vertices(static_cast<std::size_t>(pass.End() - pass.First));
         std::iota(vertices.begin(), vertices.end(), pass.First);
         remesher.Split(vertices);
@@ -221,7 +221,7 @@ SurfaceNumbers NumbersOf(const Evolution& e)
 double AreaOf(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
-  return e.Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, e.Threads);
+  return e.Blocks->SumUp([&mesh](int v) { return VertexArea(mesh, v); }, e.Threads);
 }
 
 double VolumeOf(const Evolution& e)

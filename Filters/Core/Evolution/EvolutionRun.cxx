@@ -134,7 +134,7 @@ void Optimize(Evolution& e)
       }
       const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
       SurfaceOptimization optimize(
-        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &pass.Share);
+        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &pass.Context);
       optimize.Run(requested);
       SurfaceIteration::UpdateChanged(s, optimize.TakeChanged());
     });

@@ -116,7 +116,7 @@ bool FitsRings(const IndexedSurface& surface)
 /** Return whether a cell of triangle size has too many points for fast searches. */
 bool IsTooDense(const IndexedSurface& surface, double delta)
 {
-  const double cell = SizingField::ReachInDelta * delta;
+  const double cell = SizingField::SearchRadiusInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {

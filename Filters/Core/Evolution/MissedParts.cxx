@@ -79,7 +79,7 @@ constexpr float Clear = 1.9f;
 /** Intersecting triangles, one of them with corner v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
 {
-  const float least = state.Sizing.SmallestReach();
+  const float least = state.Sizing.SmallestSearchRadius();
   if (!state.Sizing.IsGraded())
   {
     return least;
@@ -94,8 +94,8 @@ float ReachAbout(const SurfaceState& state, int v)
     squared = std::max({ squared, SquaredDistance(mesh.Position[v], p),
       SquaredDistance(p, mesh.Position[ring.Next(i)]) });
   }
-  return std::max(
-    least, std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
+  return std::max(least,
+    std::sqrt(squared) * (SizingField::SearchRadiusInDelta / SizingField::LongestEdgeInDelta));
 }
 
 /** Recovery surface of missed voxels: the zero set of the distance to the nearest one, minus a
@@ -246,9 +246,9 @@ private:
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
     const SizingField& sizing = this->State.Sizing;
     const float delta = sizing.OfLevel();
-    const float more = Clear * delta - sizing.SmallestReach();
+    const float more = Clear * delta - sizing.SmallestSearchRadius();
     float room = static_cast<float>(0.5 * this->Lattice.Pitch());
-    this->State.Grid.Visit(position, sizing.LargestReach() + more + room,
+    this->State.Grid.Visit(position, sizing.LargestSearchRadius() + more + room,
       [&](int v)
       {
         const float far = Length(position - this->State.Mesh.Position[v]);

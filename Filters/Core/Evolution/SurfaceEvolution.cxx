@@ -145,7 +145,7 @@ LevelOutcome EvolveOnLevel(
   GiveBackFreeMemory();
   e.Observe();
   outcome.Reason = RunLevel(e);
-  e.State.ForgetMotion(); // Frees memory for the result.
+  e.State.ReleaseMotion(); // Frees memory for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;

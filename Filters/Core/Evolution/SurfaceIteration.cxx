@@ -36,7 +36,7 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 
 SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
   bool topologyChanges, Executor& threads)
-  : State(state), Pass(pass), Threads(threads), Edits(state, evidence, topologyChanges, &pass.Share)
+  : State(state), Pass(pass), Threads(threads), Edits(state, evidence, topologyChanges, &pass.Context)
 {
   SurfaceState& s = this->State;
   this->CollectActive();
@@ -58,7 +58,7 @@ SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& pass, const F
   this->Near.Test(s, this->DirtyVertices, threads);
   this->Near.AddPairs(s, crowded);
   this->Watch.LabelSmall(s, pass.First, pass.End(), pass.Written, pass.Large);
-  this->Labelled = pass.Share.Counts;
+  this->Labelled = pass.Context.Counts;
 }
 
 SurfaceIteration::~SurfaceIteration()
@@ -281,14 +281,14 @@ void SurfaceIteration::WatchComponents()
 {
   // A component may become small without a change of topology. After a merge, a small cavity may be
   // part of the main component. Therefore components are labelled again before any deletion.
-  EditContext& share = this->Pass.Share;
+  EditContext& context = this->Pass.Context;
   const EditCounts& then = this->Labelled;
-  if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
-    share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
+  if (context.Counts.Merges + context.Counts.Cuts > then.Merges + then.Cuts ||
+    context.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
     this->Watch.LabelSmall(this->State, this->Pass.First, this->Pass.End(), this->Pass.Written,
-      this->Pass.Large.After(share.Counts));
-    this->Labelled = share.Counts;
+      this->Pass.Large.After(context.Counts));
+    this->Labelled = context.Counts;
   }
   this->Watch.DeleteDegenerate(this->State, &share);
 }
@@ -308,10 +308,10 @@ double SurfaceIteration::KineticEnergy() const
 HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  EditContext& share = this->Pass.Share;
-  const EditCounts counts = share.Counts;
-  const int added = share.Room.Added;
-  const int characteristic = share.EulerCharacteristic;
+  EditContext& context = this->Pass.Context;
+  const EditCounts counts = context.Counts;
+  const int added = context.Slots.Added;
+  const int characteristic = context.EulerCharacteristic;
   HistoryRow row;
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -328,9 +328,9 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
     [this, &s](int v)
     { return !s.Mesh.IsAlive(v) || this->Pass.Written.Contains(s.Mesh.Position[v]); }));
 
-  row.Add(share.Counts - counts);
-  row.Vertices = share.Room.Added - added;
-  row.EulerCharacteristic = share.EulerCharacteristic - characteristic;
+  row.Add(context.Counts - counts);
+  row.Vertices = context.Slots.Added - added;
+  row.EulerCharacteristic = context.EulerCharacteristic - characteristic;
   row.KineticEnergy = this->KineticEnergy();
   return row;
 }
