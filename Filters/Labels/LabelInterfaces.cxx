@@ -79,7 +79,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
       static_cast<double>(VoxelBox::Of(map.Size()).Count()) + 1.0);
     this->WholeMap = map.Part(box);
     this->WholeBricks.emplace(this->WholeMap, threads);
-    GiveAwaySmallParts(map, this->Selected, static_cast<std::int64_t>(least),
+    ReassignSmallParts(map, this->Selected, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
   this->Map = map.Part(box);

@@ -40,7 +40,7 @@ public:
   RowFollower(const IndexedSurface& surface, const DistanceLattice& lattice, Executor& executor)
   {
     std::copy(lattice.Size().begin(), lattice.Size().end(), this->Rows.End.begin());
-    this->Rows.Origin = lattice.IjkOf(0, 0, 0);
+    this->Rows.Origin = lattice.PositionOf(0, 0, 0);
     this->Rows.Pitch = lattice.Pitch();
     for (const Triangle& t : surface.Triangles)
     {
@@ -150,7 +150,7 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& given, double pitch, int at
           if ((side & Near) != 0)
           {
             points[n].Distance = static_cast<float>(std::max(
-              std::sqrt(tree.SquaredDistance(lattice.IjkOf(i, j, k))), LeastDistance * pitch));
+              std::sqrt(tree.SquaredDistance(lattice.PositionOf(i, j, k))), LeastDistance * pitch));
           }
           points[n].Distance *= (side & Inside) != 0 ? -1.f : 1.f;
         }

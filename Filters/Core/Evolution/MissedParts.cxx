@@ -194,8 +194,8 @@ private:
     const int firstLayer = layer * DistanceLattice::BrickSide;
     const int endLayer = std::min(firstLayer + DistanceLattice::BrickSide, this->Lattice.Size()[2]);
     const double reach = Farthest * this->Unit + this->Lattice.Pitch();
-    const auto [begin, end] = this->RunsNear(this->Lattice.IjkOf(0, 0, firstLayer)[2] - reach,
-      this->Lattice.IjkOf(0, 0, endLayer)[2] + reach);
+    const auto [begin, end] = this->RunsNear(this->Lattice.PositionOf(0, 0, firstLayer)[2] - reach,
+      this->Lattice.PositionOf(0, 0, endLayer)[2] + reach);
     const double slope = this->TheField.TypicalSlope();
     this->ForVoxels(begin, end,
       [&](const std::array<int, 3>& voxel, int)
@@ -218,7 +218,7 @@ private:
     {
       for (int j = this->Lattice.FirstFrom(centre[1] - far, 1); j < endJ; ++j)
       {
-        const Point row = this->Lattice.IjkOf(0, j, k);
+        const Point row = this->Lattice.PositionOf(0, j, k);
         const double beside =
           (row[1] - centre[1]) * (row[1] - centre[1]) + (row[2] - centre[2]) * (row[2] - centre[2]);
         if (beside >= far * far)
@@ -266,7 +266,8 @@ private:
       {
         if (distance < far)
         {
-          distance = std::max(distance, -this->NearestRoom(this->Lattice.IjkOf(p[0], p[1], p[2])));
+          distance =
+            std::max(distance, -this->NearestRoom(this->Lattice.PositionOf(p[0], p[1], p[2])));
         }
       });
   }
@@ -293,7 +294,7 @@ private:
     forPoints(
       [&](const LatticePoint& p, char& has)
       {
-        if (isClear(this->Lattice.IjkOf(p[0], p[1], p[2])))
+        if (isClear(this->Lattice.PositionOf(p[0], p[1], p[2])))
         {
           this->Lattice.Write(p[0], p[1], p[2]) = -0.5f * static_cast<float>(Margin * this->Unit);
           has = 1;

@@ -290,7 +290,7 @@ void SurfaceIteration::WatchComponents()
       this->Pass.Large.After(context.Counts));
     this->Labelled = context.Counts;
   }
-  this->Watch.DeleteDegenerate(this->State, &share);
+  this->Watch.DeleteDegenerate(this->State, &context);
 }
 
 double SurfaceIteration::KineticEnergy() const

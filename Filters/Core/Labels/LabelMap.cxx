@@ -51,7 +51,7 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
         { (i + 1) * LayerSize, (j + 1) * LayerSize,
           all.End[2] } }.CommonWith(all);
       const Number first = voxels[all.NumberOf(box.First[0], box.First[1], box.First[2])];
-      part.fill(first); // Also what is beyond the map.
+      part.fill(first); // Includes voxels beyond the map.
       bool isMixed = false;
       for (int z = box.First[2]; z < box.End[2]; ++z)
       {
@@ -76,12 +76,12 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
 
 LabelMap LabelMap::Part(const VoxelBox& box) const
 {
-  const auto moved = [](VoxelBox by, const std::array<int, 3>& way, int sign)
+  const auto moved = [](VoxelBox by, const std::array<int, 3>& offset, int sign)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      by.First[axis] += sign * way[axis];
-      by.End[axis] += sign * way[axis];
+      by.First[axis] += sign * offset[axis];
+      by.End[axis] += sign * offset[axis];
     }
     return by;
   };
