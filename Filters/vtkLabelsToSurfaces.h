@@ -62,7 +62,7 @@
  *   between two interfaces at a junction line, and its position
  * - field data `SmallContacts` (int): number of contacts of two labels that are a single triangle
  *
- * @par Field data of both outputs:
+ * @par Field data of port 0:
  * - `LostLabels` (string), only if labels are not represented well. It names labels without a
  *   surface, labels with more than half of their voxels missed, labels of at least 100 voxels with
  *   a VolumeError of more than 0.03, and labels with WrongParts. The filter also warns if labels of

@@ -166,7 +166,7 @@ TEST_F(ImagePyramidErrors, MemoryThatEndsWhileALevelIsMade)
   const MessagesOf errors(this->Filter);
   this->Filter->Update();
   EXPECT_TRUE(hasThrown);
-  EXPECT_TRUE(errors.Has("the memory does not suffice for the pyramid of an image of 256 x 256"))
+  EXPECT_TRUE(errors.Has("not enough memory for the pyramid of an image of 256 x 256"))
     << errors.Get();
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u);

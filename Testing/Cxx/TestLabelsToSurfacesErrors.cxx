@@ -202,7 +202,7 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
   MessagesOf errors(this->Filter);
   this->Filter->Update();
   EXPECT_TRUE(hasThrown);
-  EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
+  EXPECT_TRUE(errors.Has("not enough memory for the surfaces")) << errors.Get();
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
