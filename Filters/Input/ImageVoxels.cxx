@@ -252,7 +252,7 @@ void ValueRange::Check() const
     ThrowInvalidArgument("Upper Value is ", this->Upper, ", but Iso Value is ",
       std::isnan(this->Lower) ? std::string("not set") : Join(this->Lower),
       ". Set Iso Value to the smallest value of the object. For an object below one value, set Iso "
-      "Value to it, and switch Use Upper Value and Object Is Bright off.");
+      "Value to this value, remove Upper Value, and switch Object Is Bright off.");
   }
   if (!(this->Lower < this->Upper))
   {

@@ -29,7 +29,7 @@ std::string ChosenName(vtkInformation* selection);
  */
 vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
 
-/** Return the same. @throws InvalidArgument also if it has several components */
+/** Return the selected array. @throws InvalidArgument also if it has several components */
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /**

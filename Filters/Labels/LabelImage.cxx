@@ -181,7 +181,7 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& requested, int backg
 LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int background,
   std::vector<int>& objects, Executor& executor) const
 {
-  constexpr int reserved = 8; // last numbers, which have another meaning
+  constexpr int reserved = 8; // numbers after the objects, such as the sides of the box
   const int* size = this->Geometry->GetDimensions();
   LabelMap map({ size[0], size[1], size[2] });
   map.Spacing = ComputationalSpace(this->Geometry, Metric::World).Step();

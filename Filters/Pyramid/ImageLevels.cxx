@@ -92,17 +92,17 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
 /** Return the fraction of the work before each level, measured in source voxels. */
 std::vector<double> FractionBefore(const std::vector<LevelGeometry>& levels)
 {
-  std::vector<double> share(levels.size(), 0.0);
+  std::vector<double> fraction(levels.size(), 0.0);
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
-    share[h] = share[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
+    fraction[h] = fraction[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
   }
-  const double total = share.back();
-  for (double& s : share)
+  const double total = fraction.back();
+  for (double& f : fraction)
   {
-    s = total > 0.0 ? s / total : 1.0;
+    f = total > 0.0 ? f / total : 1.0;
   }
-  return share;
+  return fraction;
 }
 
 /**

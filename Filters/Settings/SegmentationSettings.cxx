@@ -37,11 +37,10 @@ void CheckGrading(const Grading& grading, double edgeLength)
   if (grading.IsRequested() && edgeLength != 0.0)
   {
     ThrowInvalidArgument(DescribeGrading(grading), " and Edge Length is ", edgeLength,
-      ", but graded edges have no uniform length. Set Edge Length to 0, or switch ",
-      !grading.HasTolerance() ? "Thin Parts"
-        : grading.ThinParts   ? "Tolerance and Thin Parts"
-                              : "Tolerance",
-      " off.");
+      ", but graded edges have no uniform length. Set Edge Length to 0, or ",
+      grading.HasTolerance() ? "set Tolerance to 0" : "",
+      grading.HasTolerance() && grading.ThinParts ? " and " : "",
+      grading.ThinParts ? "switch Thin Parts off" : "", ".");
   }
 }
 
@@ -72,10 +71,10 @@ void SegmentationSettings::Check() const
     ThrowInvalidArgument(DescribeGrading(this->Grading), ", but ",
       options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
                              : "Snap To Iso Value is off",
-      ", so the surface is not on the isosurface. Switch ",
-      this->Grading.HasTolerance() ? "Tolerance" : "Thin Parts",
-      options.SnapToIsoValue ? " off, or set a larger Isopotential Weight."
-                             : " off, or Snap To Iso Value on.");
+      ", so the surface is not on the isosurface. ",
+      this->Grading.HasTolerance() ? "Set Tolerance to 0, or " : "Switch Thin Parts off, or ",
+      options.SnapToIsoValue ? "set a larger Isopotential Weight."
+                             : "switch Snap To Iso Value on.");
   }
 }
 }

@@ -125,7 +125,7 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
     choices[i](this->Filter);
     const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
     EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
-    EXPECT_EQ(warnings.Has("Level 0: Keep Components leaves none"), i == 3);
+    EXPECT_EQ(warnings.Has("surface of level 0 is empty: Keep Components"), i == 3);
     const Choice allSoFar = [&](vtkDeformableSurface* filter)
     { std::for_each(choices, choices + i + 1, [&](const Choice& choose) { choose(filter); }); };
     ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 0, allSoFar));
