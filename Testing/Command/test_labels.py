@@ -175,7 +175,7 @@ class InputTest(LabelsTest):
         for name, voxels, warning in (
                 ("i8", label_voxels("i8"), "^((?!warning).)*$"),
                 ("f4", label_voxels("f4"), "warning: .*integers"),
-                ("near", resampled, r"within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")):
+                ("near", resampled, r"within 0.00\d+ of integers, .*; 1 NaN voxel is")):
             process = self.run_command(self.map_file(image=label_image(voxels)), self.path(name),
                                        "--labels", "7")
             self.assertRegex(process.stderr.replace("\n", " "), warning)
@@ -190,7 +190,7 @@ class InputTest(LabelsTest):
         process = self.run_command(volume, self.path("o"), "--labels", "1,4294967294")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
         self.assertRegex(process.stderr,
-                         "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
+                         "warning: .*renumbered.*: 4294967293 is 3, 4294967294 is 4")
 
     def test_folder_of_masks(self):
         """As written by TotalSegmentator."""
@@ -231,7 +231,7 @@ class InputTest(LabelsTest):
                 ("map.vti: the only label is the background, 0; .*--background",
                  np.zeros((9, 9, 9), "u1"), "all"),
                 ("map.vti: no label matches '9'", label_voxels(), "9"),
-                ("one slice", label_voxels()[8:9], "all")):
+                ("single slice", label_voxels()[8:9], "all")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
                                  labels)

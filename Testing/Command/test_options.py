@@ -134,12 +134,12 @@ class OptionTableTest(CommandTestCase):
 
     def test_invalid_property_values(self):
         for reason, *options in (
-                ("--upper is 300, but --iso is 500.5; it must be more", "--upper", "300"),
+                ("--upper is 300, but --iso is 500.5. Set --upper to more", "--upper", "300"),
                 ("no voxel is between --iso, 500.5, and --upper, 500.6", "--upper", "500.6"),
                 ("--friction is -1, it must lie in", "--friction", "-1"),
                 ("--edge-length is 0.01, but edges of this image can have mean lengths of",
                  "--edge-length", "0.01"),
-                ("--tolerance is 1, but --no-snap is given: the surface", "--tolerance", "1",
+                ("--tolerance is 1, but --no-snap is given, so the surface", "--tolerance", "1",
                  "--no-snap"),
                 ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
                  "--thin-parts", "--edge-length", "1")):
