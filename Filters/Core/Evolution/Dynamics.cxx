@@ -147,8 +147,8 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
     fastest = std::max(fastest, SquaredLength(speed));
   }
   fastest = std::sqrt(fastest);
-  const float way = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
-  step.Time = fastest * longest > way ? way / fastest : longest;
+  const float largest = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
+  step.Time = fastest * longest > largest ? largest / fastest : longest;
   for (std::size_t i = 0; i < active.size(); ++i)
   {
     Vector& velocity = state.Velocity[active[i]];

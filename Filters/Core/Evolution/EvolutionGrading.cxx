@@ -89,17 +89,17 @@ void DivideNear(Evolution& e, const MissedBoundary& missed)
 {
   const LevelImage& image = e.Task.Image;
   const VoxelNumbers numbers(image.Size);
-  std::vector<Vector> places;
+  std::vector<Vector> positions;
   for (const std::int64_t voxel : missed.Voxels())
   {
     const std::array<int, 3> index = numbers.IjkOf(voxel);
-    places.emplace_back(static_cast<float>(index[0] * image.Step[0]),
+    positions.emplace_back(static_cast<float>(index[0] * image.Step[0]),
       static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
   }
   GradedSizes sizes(e.State, *e.TheField, e.Task.Grading, e.Threads);
   Sweep sweep;
   sweep.IsMonitored = false;
-  ApplySizes(e, sizes.ShrinkNear(places), sweep);
+  ApplySizes(e, sizes.ShrinkNear(positions), sweep);
 }
 
 void Grade(Evolution& e)

@@ -76,7 +76,7 @@ void ForgetBlocks(Evolution& e)
 }
 
 void RunBlockPasses(
-  Evolution& e, const Sweep& sweep, const std::function<void(BlockPass& visit)>& visit)
+  Evolution& e, const Sweep& sweep, const std::function<void(BlockPass& pass)>& run)
 {
   e.State.Counts = EditCounts();
   e.Blocks->Prepare(e.Threads);
@@ -92,8 +92,8 @@ void RunBlockPasses(
       const std::lock_guard<std::mutex> lock(counting);
       opened.Large = e.Components.Large();
     }
-    visit(opened);
-    const EditCounts counts = opened.Share.Counts;
+    run(opened);
+    const EditCounts counts = opened.Context.Counts;
     e.Blocks->Close(std::move(opened));
     const std::lock_guard<std::mutex> lock(counting);
     e.State.Counts += counts;
@@ -122,15 +122,15 @@ void RunSweep(Evolution& e)
   e.History.BeginSweep(s.Mesh.NumberOfVertices(), s.EulerCharacteristic);
   ++e.Status.Sweep;
   RunBlockPasses(e, { Monitor::Activity::Iterating, 0., static_cast<double>(iterations) },
-    [&](BlockPass& visit)
+    [&](BlockPass& pass)
     {
-      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges, e.Threads);
+      SurfaceIteration iteration(s, pass, evidence, options.TopologyChanges, e.Threads);
       std::vector<HistoryRow> rows;
       for (int i = 0; i < iterations; ++i)
       {
         rows.push_back(iteration.Run(*e.Motion, SurfaceIteration::Mode::Evolve));
       }
-      swept.Add(visit.Block, rows);
+      swept.Add(pass.Block, rows);
     });
 
   const EditCounts& counts = s.Counts;
@@ -153,12 +153,12 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
   const float smallestMove =
     s.Mesh.NumberOfVertices() < LargeSurface ? SmallestMove : SmallestMoveOfLarge;
   RunBlockPasses(e, sweep,
-    [&](BlockPass& visit)
+    [&](BlockPass& pass)
     {
-      SurfaceIteration iteration(s, visit, e.TheField.get(), false, e.Threads);
+      SurfaceIteration iteration(s, pass, e.TheField.get(), false, e.Threads);
       for (int i = 0; i < iterations; ++i)
       {
-        for (int v = visit.First; v < visit.End(); ++v)
+        for (int v = pass.First; v < pass.End(); ++v)
         {
           s.Disturbed[v] = 0;
         }
@@ -169,7 +169,7 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
             s, iteration, smallestMove); // Also outside the block, for later passes.
         }
       }
-      for (int v = visit.First; v < visit.End(); ++v)
+      for (int v = pass.First; v < pass.End(); ++v)
       {
         s.Velocity[v] = Vector();
       }
@@ -185,11 +185,11 @@ void SplitLongEdges(Evolution& e, Sweep sweep)
   do
   {
     RunBlockPasses(e, sweep,
-      [&e](BlockPass& visit)
+      [&e](BlockPass& pass)
       {
-        Remesher remesher(e.State, nullptr, false, &visit.Share);
-        std::vector<int> vertices(static_cast<std::size_t>(visit.End() - visit.First));
-        std::iota(vertices.begin(), vertices.end(), visit.First);
+        Remesher remesher(e.State, nullptr, false, &pass.Context);
+        std::vector<int> vertices(static_cast<std::size_t>(pass.End() - pass.First));
+        std::iota(vertices.begin(), vertices.end(), pass.First);
         remesher.Split(vertices);
         SurfaceIteration::UpdateChanged(e.State, remesher.TakeChanged());
       });
@@ -221,7 +221,7 @@ SurfaceNumbers NumbersOf(const Evolution& e)
 double AreaOf(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
-  return e.Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, e.Threads);
+  return e.Blocks->SumUp([&mesh](int v) { return VertexArea(mesh, v); }, e.Threads);
 }
 
 double VolumeOf(const Evolution& e)

@@ -32,7 +32,7 @@ StopReason Evolve(Evolution& e)
 {
   const SurfaceOptions& options = e.Task.Options;
   const SurfaceMesh& mesh = e.State.Mesh;
-  ConvergenceCriterion rest;
+  ConvergenceCriterion convergence;
   CycleCriterion cycle;
   if (e.HasDescended)
   {
@@ -63,9 +63,9 @@ StopReason Evolve(Evolution& e)
     {
       const double volume = VolumeOf(e);
       const double limit = std::max(cube, options.ConvergenceTolerance * std::abs(volume));
-      rest.Add(volume);
+      convergence.Add(volume);
       cycle.Add(volume);
-      if (rest.IsMet(limit))
+      if (convergence.IsMet(limit))
       {
         return StopReason::Converged;
       }
@@ -122,10 +122,10 @@ void Optimize(Evolution& e)
     return;
   }
   RunBlockPasses(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
-    [&](BlockPass& visit)
+    [&](BlockPass& pass)
     {
       std::vector<int> requested;
-      for (int v = visit.First; v < visit.End(); ++v)
+      for (int v = pass.First; v < pass.End(); ++v)
       {
         if (s.Mesh.IsAlive(v))
         {
@@ -134,7 +134,7 @@ void Optimize(Evolution& e)
       }
       const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
       SurfaceOptimization optimize(
-        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &visit.Share);
+        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &pass.Context);
       optimize.Run(requested);
       SurfaceIteration::UpdateChanged(s, optimize.TakeChanged());
     });

@@ -50,18 +50,18 @@ Box BoxOfGrid(const Evolution& e)
 RecoverySurfaces FindParts(
   Evolution& e, PartKind kind, int minimumSize, RecoveryShape shape, double from, double to)
 {
-  const auto look = [&]
+  const auto find = [&]
   {
     return FindMissedParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
       e.ProgressCallbackOf(Monitor::Activity::Recovering, from, to));
   };
-  RecoverySurfaces cover = look();
-  if (cover.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
+  RecoverySurfaces recovery = find();
+  if (recovery.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
   {
-    DivideNear(e, cover.Boundary); // Otherwise there is no room for near recovery surfaces.
-    cover = look();
+    DivideNear(e, recovery.Boundary); // Otherwise there is no room for near recovery surfaces.
+    recovery = find();
   }
-  return cover;
+  return recovery;
 }
 
 /** Add recovery surfaces. Intersecting components are replaced by those of RecoveryShape::Safe. */
@@ -111,10 +111,10 @@ void Recover(Evolution& e, bool isStart = false)
   e.Boundary.Add(cavities.Boundary);
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
-    const RecoverySurfaces& cover = kind == PartKind::Object ? objects : cavities;
-    if (recovers && cover.Enclosed > 0)
+    const RecoverySurfaces& recovery = kind == PartKind::Object ? objects : cavities;
+    if (recovers && recovery.Enclosed > 0)
     {
-      Enclose(e, cover.Surface,
+      Enclose(e, recovery.Surface,
         [&] { return FindParts(e, kind, size, RecoveryShape::Safe, 1., 1.).Surface; });
     }
   }
@@ -176,10 +176,10 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
 }
 
-void Divide(Evolution& e, const ConvergedSurface& rest)
+void Divide(Evolution& e, const ConvergedSurface& converged)
 {
-  e.Unchecked = rest.Unchecked;
-  const double coarse = rest.Delta;
+  e.Unchecked = converged.Unchecked;
+  const double coarse = converged.Delta;
   Enter(e);
   // The number of divisions that brings delta nearest to the new one: 1 for a pyramid factor of
   // sqrt 3.
@@ -250,21 +250,21 @@ void ActivateAll(Evolution& e)
   ForAlive(s.Mesh, e.Threads, [&s](int v) { s.Active[v] = 1; });
 }
 
-bool ReachLevel(Evolution& e, ConvergedSurface& rest)
+bool ReachLevel(Evolution& e, ConvergedSurface& converged)
 {
   if (e.Task.Start)
   {
     Start(e, *e.Task.Start);
     return true;
   }
-  std::swap(e.State.Mesh, rest.Mesh);
-  e.Status.Level = rest.Level;
+  std::swap(e.State.Mesh, converged.Mesh);
+  e.Status.Level = converged.Level;
   if (!e.GoOn(Monitor::Activity::Regularising, 1.))
   {
-    std::swap(e.State.Mesh, rest.Mesh);
+    std::swap(e.State.Mesh, converged.Mesh);
     return false;
   }
-  Divide(e, rest);
+  Divide(e, converged);
   return true;
 }
 }

@@ -95,22 +95,22 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
   }
   // The estimate fails where the slope changes: search.
   return SignedDistanceToZero(position, normal, sample.Value, this->Furthest(),
-    [this](const Vector& place) { return this->TheField.ValueAt(place); });
+    [this](const Vector& position) { return this->TheField.ValueAt(position); });
 }
 
 template <typename Visit>
 void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Visit& visit) const
 {
-  const LargeVector<Vector>& place = this->State.Mesh.Position;
+  const LargeVector<Vector>& position = this->State.Mesh.Position;
   this->State.Mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      visit((place[a] + place[b] + place[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
+      visit((position[a] + position[b] + position[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
       for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
       {
         if (u < v) // One of the two faces at an edge.
         {
-          visit((place[u] + place[v]) * 0.5f, std::array<int, 2>{ u, v });
+          visit((position[u] + position[v]) * 0.5f, std::array<int, 2>{ u, v });
         }
       }
     });
@@ -152,12 +152,12 @@ float GradedSizes::DistanceToWall(int v, float side, float from, float most) con
   {
     return from; // thinner than `from`, or the normal is meaningless
   }
-  for (float way = from + step; way < most + step; way += step)
+  for (float distance = from + step; distance < most + step; distance += step)
   {
-    const float value = this->TheField.ValueAt(p + normal * (side * way));
+    const float value = this->TheField.ValueAt(p + normal * (side * distance));
     if ((value > 0) != (before > 0))
     {
-      return std::min(way - step * value / (value - before), most);
+      return std::min(distance - step * value / (value - before), most);
     }
     before = value;
   }
@@ -169,8 +169,8 @@ float GradedSizes::MostBetweenWalls(int v, float size) const
   for (const float side : { -1.f, 1.f })
   {
     const float most = WallInDelta * size;
-    const float way = this->DistanceToWall(v, side, this->Least, most);
-    size = way < most ? std::max(way / WallInDelta, this->Least) : size;
+    const float distance = this->DistanceToWall(v, side, this->Least, most);
+    size = distance < most ? std::max(distance / WallInDelta, this->Least) : size;
   }
   return size;
 }
@@ -228,13 +228,13 @@ std::vector<int> GradedSizes::Refine()
   return this->Change([&](int v) { return this->RefinedSize(v, offsets[v], sags[v]); });
 }
 
-std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
+std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& positions)
 {
   const SurfaceState& s = this->State;
   LargeVector<std::uint8_t> isNear(s.Mesh.Rings.size(), 0);
-  for (const Vector& place : places)
+  for (const Vector& position : positions)
   {
-    s.Grid.Visit(place, NearMissedInDelta * this->Least, [&](int v) { isNear[v] = 1; });
+    s.Grid.Visit(position, NearMissedInDelta * this->Least, [&](int v) { isNear[v] = 1; });
   }
   return this->Change([&](int v) { return isNear[v] ? this->Least : s.Sizing.At(v); });
 }

@@ -38,7 +38,7 @@ public:
    */
   std::vector<int> Refine();
   /** Set the smallest size near these positions, where recovery surfaces will lie. */
-  std::vector<int> ShrinkNear(const std::vector<Vector>& places);
+  std::vector<int> ShrinkNear(const std::vector<Vector>& positions);
 
   /**
    * Change sizes towards the tolerance, by factors in [1 / sqrt 3, growth], within the limits of

@@ -154,27 +154,27 @@ private:
     this->Result.Triangles.push_back({ a, isOutward ? b : c, isOutward ? c : b });
   }
 
-  int IndexOf(const LatticeIndex& place)
+  int IndexOf(const LatticeIndex& index)
   {
     const auto found = this->Index.emplace(
-      LatticeKey(place[0], place[1], place[2]), static_cast<int>(this->Result.Points.size()));
+      LatticeKey(index[0], index[1], index[2]), static_cast<int>(this->Result.Points.size()));
     if (found.second)
     {
-      this->Result.Points.push_back(this->PointAt(place));
+      this->Result.Points.push_back(this->PointAt(index));
     }
     return found.first->second;
   }
 
-  Point PointAt(const LatticeIndex& place) const
+  Point PointAt(const LatticeIndex& index) const
   {
     // Nearest point of the core, and the direction from there.
     Point p = this->Centre;
     Point out;
     for (int k = 0; k < 3; ++k)
     {
-      const int onCore = std::clamp(place[k], 1, this->Last[k] - 1);
+      const int onCore = std::clamp(index[k], 1, this->Last[k] - 1);
       p[k] += (onCore - 0.5 * this->Last[k]) * this->Edge;
-      out[k] = place[k] - onCore;
+      out[k] = index[k] - onCore;
     }
     const double scale = this->Radius / std::hypot(out[0], out[1], out[2]);
     for (int k = 0; k < 3; ++k)
@@ -323,11 +323,11 @@ std::vector<Point> ChooseSeeds(
   std::vector<Point> chosen;
   for (std::size_t i = 0; i < centres.size(); ++i)
   {
-    const VectorD place(centres[i][0], centres[i][1], centres[i][2]);
+    const VectorD centre(centres[i][0], centres[i][1], centres[i][2]);
     if (values[i] > 0 &&
       std::none_of(chosen.begin(), chosen.end(),
         [&](const Point& q)
-        { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
+        { return SquaredDistance(VectorD(q[0], q[1], q[2]), centre) < spacing * spacing; }))
     {
       chosen.push_back(centres[i]);
     }

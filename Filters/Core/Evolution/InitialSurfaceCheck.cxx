@@ -78,18 +78,18 @@ EdgeLengths LengthsOf(const IndexedSurface& surface)
 IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
 {
   IndexedSurface result;
-  LargeVector<int> place(surface.Points.size(), -1);
+  LargeVector<int> newIndex(surface.Points.size(), -1);
   result.Triangles.reserve(surface.Triangles.size());
   for (Triangle t : surface.Triangles)
   {
     for (int& corner : t)
     {
-      if (place[corner] < 0)
+      if (newIndex[corner] < 0)
       {
-        place[corner] = static_cast<int>(result.Points.size());
+        newIndex[corner] = static_cast<int>(result.Points.size());
         result.Points.push_back(surface.Points[corner]);
       }
-      corner = place[corner];
+      corner = newIndex[corner];
     }
     result.Triangles.push_back(t);
   }
@@ -116,7 +116,7 @@ bool FitsRings(const IndexedSurface& surface)
 /** Return whether a cell of triangle size has too many points for fast searches. */
 bool IsTooDense(const IndexedSurface& surface, double delta)
 {
-  const double cell = SizingField::ReachInDelta * delta;
+  const double cell = SizingField::SearchRadiusInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {

@@ -48,12 +48,12 @@ public:
   template <typename Visit>
   void VisitAll(const std::array<int, 3>& voxel, const Visit& visit) const
   {
-    const auto place = [&](int axis, int sample)
+    const auto coordinate = [&](int axis, int sample)
     { return this->Step[axis] * (voxel[axis] + (sample + 0.5) / this->Samples[axis] - 0.5); };
     VoxelBox::Of(this->Samples)
       .ForVoxels(
         [&](int a, int b, int c) {
-          visit(Point{ place(0, a), place(1, b), place(2, c) });
+          visit(Point{ coordinate(0, a), coordinate(1, b), coordinate(2, c) });
         });
   }
 
@@ -79,7 +79,7 @@ constexpr float Clear = 1.9f;
 /** Intersecting triangles, one of them with corner v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
 {
-  const float least = state.Sizing.SmallestReach();
+  const float least = state.Sizing.SmallestSearchRadius();
   if (!state.Sizing.IsGraded())
   {
     return least;
@@ -94,8 +94,8 @@ float ReachAbout(const SurfaceState& state, int v)
     squared = std::max({ squared, SquaredDistance(mesh.Position[v], p),
       SquaredDistance(p, mesh.Position[ring.Next(i)]) });
   }
-  return std::max(
-    least, std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
+  return std::max(least,
+    std::sqrt(squared) * (SizingField::SearchRadiusInDelta / SizingField::LongestEdgeInDelta));
 }
 
 /** Recovery surface of missed voxels: the zero set of the distance to the nearest one, minus a
@@ -112,7 +112,7 @@ public:
 
   /** @param covered number of enclosed parts @return empty if cancelled */
   IndexedSurface Make(
-    RecoveryShape shape, Executor& executor, int& covered, const ProgressCallback& goOn)
+    RecoveryShape shape, Executor& executor, int& enclosed, const ProgressCallback& goOn)
   {
     const auto layers = static_cast<std::size_t>(this->Lattice.NumberOfLayers());
     for (std::size_t first = 0; first < layers; first += LayersPerBatch)
@@ -129,8 +129,9 @@ public:
         return {};
       }
     }
-    const auto isClear = [this](const Point& place) { return this->NearestRoom(place) > 0.f; };
-    covered = this->TakeSmallParts(isClear);
+    const auto isClear = [this](const Point& position)
+    { return this->NearestRoom(position) > 0.f; };
+    enclosed = this->TakeSmallParts(isClear);
     this->Lattice.MakeWellComposed(isClear, executor);
     const float delta = this->State.Sizing.OfLevel();
     const bool isEven = shape == RecoveryShape::Even;
@@ -241,16 +242,16 @@ private:
    */
   float NearestRoom(const Point& p) const
   {
-    const Vector place(
+    const Vector position(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
     const SizingField& sizing = this->State.Sizing;
     const float delta = sizing.OfLevel();
-    const float more = Clear * delta - sizing.SmallestReach();
+    const float more = Clear * delta - sizing.SmallestSearchRadius();
     float room = static_cast<float>(0.5 * this->Lattice.Pitch());
-    this->State.Grid.Visit(place, sizing.LargestReach() + more + room,
+    this->State.Grid.Visit(position, sizing.LargestSearchRadius() + more + room,
       [&](int v)
       {
-        const float far = Length(place - this->State.Mesh.Position[v]);
+        const float far = Length(position - this->State.Mesh.Position[v]);
         room = std::min(room, far - ReachAbout(this->State, v) - more);
       });
     return room;
@@ -272,10 +273,10 @@ private:
   }
 
   /** Give parts without a lattice point the nearest one. @return number of enclosed parts */
-  int TakeSmallParts(const std::function<bool(const Point& place)>& isClear)
+  int TakeSmallParts(const std::function<bool(const Point& position)>& isClear)
   {
     std::vector<char> isEnclosed(static_cast<std::size_t>(this->Missed.Parts), 0);
-    const auto forPlaces = [&](const auto& visit)
+    const auto forPoints = [&](const auto& visit)
     {
       this->ForVoxels(0, this->Missed.Runs.size(),
         [&](const std::array<int, 3>& voxel, int part)
@@ -288,9 +289,9 @@ private:
           }
         });
     };
-    forPlaces([this](const LatticePoint& p, char& has)
+    forPoints([this](const LatticePoint& p, char& has)
       { has |= this->Lattice.IsInside(p[0], p[1], p[2]) ? 1 : 0; });
-    forPlaces(
+    forPoints(
       [&](const LatticePoint& p, char& has)
       {
         if (isClear(this->Lattice.PositionOf(p[0], p[1], p[2])))

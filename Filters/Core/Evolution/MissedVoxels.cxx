@@ -40,9 +40,9 @@ public:
 
   SlabRange SlabsOf(int v) const
   {
-    const double place = this->Mesh.Position[v].Z * this->Inverse;
-    double low = place - std::max(this->Reach, Margin);
-    double high = place + std::max(this->Reach, Margin);
+    const double position = this->Mesh.Position[v].Z * this->Inverse;
+    double low = position - std::max(this->Reach, Margin);
+    double high = position + std::max(this->Reach, Margin);
     const Ring& ring = this->Mesh.Rings[v];
     for (int i = 0; i < ring.Count; ++i)
     {
@@ -230,9 +230,9 @@ MissedVoxels FindMissedVoxels(const SurfaceState& state, const Field& field, Par
   {
     const std::size_t count = std::min(SlabsPerBatch, slabs - first);
     ForSpans(executor, count, 1,
-      [&](std::size_t place, std::size_t, std::size_t)
+      [&](std::size_t n, std::size_t, std::size_t)
       {
-        const std::size_t slab = first + place;
+        const std::size_t slab = first + n;
         const int begin = static_cast<int>(slab) * LayersOfSlab;
         SlabSearch search(state, field, kind, begin, std::min(begin + LayersOfSlab, size[2]));
         search.LeaveSide(vertices.Begin(slab), vertices.Count(slab));

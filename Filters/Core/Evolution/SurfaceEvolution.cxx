@@ -133,29 +133,29 @@ void Evolution::MakeField()
 }
 
 LevelOutcome EvolveOnLevel(
-  const LevelTask& task, ConvergedSurface& rest, Executor& executor, Monitor& monitor)
+  const LevelTask& task, ConvergedSurface& converged, Executor& executor, Monitor& monitor)
 {
-  Evolution e(task, rest.History, executor, monitor);
+  Evolution e(task, converged.History, executor, monitor);
   LevelOutcome outcome;
-  outcome.HasReachedEnd = ReachLevel(e, rest);
-  if (!outcome.HasReachedEnd)
+  outcome.HasReachedLevel = ReachLevel(e, converged);
+  if (!outcome.HasReachedLevel)
   {
     return outcome;
   }
   GiveBackFreeMemory();
   e.Observe();
   outcome.Reason = RunLevel(e);
-  e.State.ForgetMotion(); // Frees memory for the result.
+  e.State.ReleaseMotion(); // Frees memory for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
   outcome.Missed = e.Missed;
   outcome.Verified = e.Verified;
-  rest.Mesh = std::move(e.State.Mesh);
-  rest.Level = task.Level;
-  rest.Delta = e.State.Sizing.OfLevel();
-  rest.Unchecked = e.Unchecked;
+  converged.Mesh = std::move(e.State.Mesh);
+  converged.Level = task.Level;
+  converged.Delta = e.State.Sizing.OfLevel();
+  converged.Unchecked = e.Unchecked;
   return outcome;
 }
 }

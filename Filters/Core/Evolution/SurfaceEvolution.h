@@ -105,7 +105,7 @@ struct Verdict
 /** Result of EvolveOnLevel(). */
 struct LevelOutcome
 {
-  bool HasReachedEnd = false; ///< false: cancelled before any change
+  bool HasReachedLevel = false; ///< false: cancelled before any change
   StopReason Reason = StopReason::Cancelled;
   SurfaceResult Surface;
   int Iterations = 0;

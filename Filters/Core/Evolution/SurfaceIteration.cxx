@@ -34,10 +34,9 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 }
 }
 
-SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const Field* evidence,
+SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
   bool topologyChanges, Executor& threads)
-  : State(state), Visit(visit), Threads(threads),
-    Edits(state, evidence, topologyChanges, &visit.Share)
+  : State(state), Pass(pass), Threads(threads), Edits(state, evidence, topologyChanges, &pass.Context)
 {
   SurfaceState& s = this->State;
   this->CollectActive();
@@ -58,8 +57,8 @@ SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& visit, const 
   }
   this->Near.Test(s, this->DirtyVertices, threads);
   this->Near.AddPairs(s, crowded);
-  this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
-  this->Labelled = visit.Share.Counts;
+  this->Watch.LabelSmall(s, pass.First, pass.End(), pass.Written, pass.Large);
+  this->Labelled = pass.Context.Counts;
 }
 
 SurfaceIteration::~SurfaceIteration()
@@ -75,10 +74,10 @@ void SurfaceIteration::CollectActive()
   // Ends of an edge that is too long do not move until it is split.
   const SurfaceState& s = this->State;
   this->Active.clear();
-  for (int v = this->Visit.First; v < this->Visit.End(); ++v)
+  for (int v = this->Pass.First; v < this->Pass.End(); ++v)
   {
     if (s.Active[v] != 0 && s.Mesh.IsAlive(v) && !(s.RemeshFlags[v] & HasHugeEdge) &&
-      this->Visit.Moving.Contains(s.Mesh.Position[v]))
+      this->Pass.Moving.Contains(s.Mesh.Position[v]))
     {
       this->Active.push_back(v);
     }
@@ -282,16 +281,16 @@ void SurfaceIteration::WatchComponents()
 {
   // A component may become small without a change of topology. After a merge, a small cavity may be
   // part of the main component. Therefore components are labelled again before any deletion.
-  EditContext& share = this->Visit.Share;
+  EditContext& context = this->Pass.Context;
   const EditCounts& then = this->Labelled;
-  if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
-    share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
+  if (context.Counts.Merges + context.Counts.Cuts > then.Merges + then.Cuts ||
+    context.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
-    this->Watch.LabelSmall(this->State, this->Visit.First, this->Visit.End(), this->Visit.Written,
-      this->Visit.Large.After(share.Counts));
-    this->Labelled = share.Counts;
+    this->Watch.LabelSmall(this->State, this->Pass.First, this->Pass.End(), this->Pass.Written,
+      this->Pass.Large.After(context.Counts));
+    this->Labelled = context.Counts;
   }
-  this->Watch.DeleteDegenerate(this->State, &share);
+  this->Watch.DeleteDegenerate(this->State, &context);
 }
 
 double SurfaceIteration::KineticEnergy() const
@@ -309,10 +308,10 @@ double SurfaceIteration::KineticEnergy() const
 HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  EditContext& share = this->Visit.Share;
-  const EditCounts counts = share.Counts;
-  const int added = share.Room.Added;
-  const int characteristic = share.EulerCharacteristic;
+  EditContext& context = this->Pass.Context;
+  const EditCounts counts = context.Counts;
+  const int added = context.Slots.Added;
+  const int characteristic = context.EulerCharacteristic;
   HistoryRow row;
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -327,11 +326,11 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
   this->WatchComponents();
   assert(std::all_of(this->Working.begin(), this->Working.end(),
     [this, &s](int v)
-    { return !s.Mesh.IsAlive(v) || this->Visit.Written.Contains(s.Mesh.Position[v]); }));
+    { return !s.Mesh.IsAlive(v) || this->Pass.Written.Contains(s.Mesh.Position[v]); }));
 
-  row.Add(share.Counts - counts);
-  row.Vertices = share.Room.Added - added;
-  row.EulerCharacteristic = share.EulerCharacteristic - characteristic;
+  row.Add(context.Counts - counts);
+  row.Vertices = context.Slots.Added - added;
+  row.EulerCharacteristic = context.EulerCharacteristic - characteristic;
   row.KineticEnergy = this->KineticEnergy();
   return row;
 }

@@ -54,7 +54,7 @@ public:
    * fixed. Small components within the region of the pass are watched.
    * @param evidence, topologyChanges see Remesher
    */
-  SurfaceIteration(SurfaceState& state, BlockPass& visit, const Field* evidence,
+  SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
     bool topologyChanges, Executor& threads = OnThisThread());
   ~SurfaceIteration();
   SurfaceIteration(const SurfaceIteration&) = delete;
@@ -85,7 +85,7 @@ private:
   double KineticEnergy() const;
 
   SurfaceState& State;
-  BlockPass& Visit;
+  BlockPass& Pass;
   Executor& Threads;
   Remesher Edits;
   Proximity Near;    ///< of all vertices; keeps the pairs
