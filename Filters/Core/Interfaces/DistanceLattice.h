@@ -41,7 +41,6 @@ public:
   }
   /** Return the index of the first point at or beyond a coordinate along an axis. */
   int FirstFrom(double coordinate, int axis) const;
-  /** Return the lattice point nearest to a position. */
   LatticePoint NearestTo(const Point& position) const;
 
   /** Return the value of a point; the pitch if its brick is not stored. */
@@ -77,7 +76,6 @@ private:
     std::vector<float> Values; ///< values of the stored bricks, x fastest
   };
 
-  /** Call write(n, value) for the points of a slice, x fastest. */
   template <typename Visitor>
   void ForSlice(int k, const Visitor& write) const;
   /** Return the cubes that start in a layer of bricks and are not well composed. */

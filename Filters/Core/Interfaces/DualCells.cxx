@@ -10,7 +10,7 @@ namespace volumic
 {
 namespace
 {
-using LocalPoint = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
+using LocalPoint = std::array<double, 3>;
 
 /** Fraction of the distance from the middle to the arcs, for cells or sides of several vertices. */
 constexpr double ArcFraction = 0.5;
@@ -61,7 +61,6 @@ LocalPoint MeanOfZeros(const std::array<float, 8>& values)
   return sum;
 }
 
-/** Return the values of two slices at the octants of a cell. */
 template <typename T>
 std::array<T, 8> OctantsAt(
   const std::vector<T>& low, const std::vector<T>& high, std::size_t at, std::size_t row)

@@ -54,7 +54,6 @@ public:
   /** @param grid must outlive this object */
   explicit DualCells(const DualGrid& grid);
 
-  /** Find the crossed cells and create their points. */
   void Make(Executor& executor);
 
   /** Return whether a pattern of two labels is plain. @param bits octants of the lower rank */

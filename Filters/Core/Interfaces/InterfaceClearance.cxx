@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-constexpr std::size_t SpanSize = 4096; ///< faces per span of a parallel loop
+constexpr std::size_t SpanSize = 4096;
 
 bool Has(const MeshTriangle& face, int v)
 {
@@ -163,7 +163,6 @@ void InterfaceClearance::Reset(Executor& executor)
     });
   this->All = boxes.All;
   this->Reach = 0.5f * boxes.Longest;
-  // Cell size: the mean of the longest sides of the boxes.
   this->Grid.Reset(
     this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(

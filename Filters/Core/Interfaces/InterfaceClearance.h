@@ -51,11 +51,10 @@ bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces);
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after);
 
-/** Statistics of the bounding boxes of faces. */
 struct FaceBoxes
 {
   Box All;
-  float Longest = 0.f; ///< longest side of all boxes
+  float Longest = 0.f; ///< longest side
   double Sides = 0.;   ///< sum of the longest sides of the boxes
   std::size_t Count = 0;
 
@@ -124,7 +123,6 @@ public:
   /** Set a lower bound for the search radius: half the longest edge that edits may create. */
   void ExpectEdges(float longest) { this->Reach = std::max(this->Reach, 0.5f * longest); }
 
-  /** Return the bounding box of an existing face. */
   const Box& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
   /** Return the bounding box of all faces at the last Reset(). */
   const Box& Bounds() const { return this->All; }

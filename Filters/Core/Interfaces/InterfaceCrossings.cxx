@@ -15,7 +15,7 @@ namespace volumic
 {
 namespace
 {
-constexpr std::size_t SpanSize = 2048; ///< faces per span of a parallel loop
+constexpr std::size_t SpanSize = 2048;
 /** Edge length of a cube, in mean box sizes of the faces. */
 constexpr float CubeInFaces = 2.f;
 constexpr int MostCubes = 1 << 20; ///< along an axis
@@ -70,7 +70,6 @@ private:
     this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
-  /** Return the indices of the cube at a position. */
   std::array<int, 3> CubeOf(const Vector& position) const
   {
     const Vector from = (position - this->Low) * this->PerCube;
@@ -78,7 +77,6 @@ private:
       std::max(static_cast<int>(from.Z), 0) };
   }
 
-  /** Return the sorted faces in each layer of cubes along z. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
     using LayersOfFace = std::array<int, 3>;
@@ -142,7 +140,6 @@ private:
     }
   }
 
-  /** Test the faces of a cube against each other, unless they form one sheet. */
   void TestCube(const std::array<int, 3>& cube, const int* first, const int* last,
     std::vector<std::array<int, 2>>& pairs, std::vector<int>& candidates) const
   {

@@ -11,7 +11,6 @@
 
 namespace volumic
 {
-/** Result of FindCrossings(). */
 struct InterfaceCrossings
 {
   std::vector<std::array<int, 2>> Pairs; ///< pairs of intersecting faces
@@ -19,10 +18,10 @@ struct InterfaceCrossings
 };
 
 /**
- * Find all pairs of intersecting faces. Space is divided into cubes of a few edge lengths. Faces in
- * a cube that separate the same two objects and have similar normals form one sheet and cannot
- * intersect: a line along the normal crosses at most one of them. Other pairs in a cube are tested.
- * Callers must reject inverted faces before, as the argument does not hold for them.
+ * Find all pairs of intersecting faces. Pairs are tested in cubes of a few edge lengths. A cube is
+ * skipped if its faces form one sheet: they separate the same two objects and have similar normals.
+ * A line along the mean normal then crosses at most one of them, unless faces are inverted. Callers
+ * must reject inverted faces before.
  * @param tolerance triangles at a smaller distance count as intersecting
  */
 InterfaceCrossings FindCrossings(const InterfaceMesh& mesh, double tolerance, Executor& executor);

@@ -32,7 +32,7 @@ public:
 
   /**
    * @param clearance of the current mesh; not used by splits
-   * @param shortest, longest range of edge lengths at size 1, in computational space
+   * @param shortest, longest as for InterfaceRemesher
    */
   InterfaceEdits(
     InterfaceMesh& mesh, InterfaceClearance& clearance, double shortest, double longest);

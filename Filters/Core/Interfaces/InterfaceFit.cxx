@@ -16,8 +16,7 @@ namespace volumic
 {
 namespace
 {
-/** Number of damped Jacobi iterations for the shifts. */
-constexpr int VolumeSweeps = 400;
+constexpr int VolumeSweeps = 400; ///< damped Jacobi iterations
 /** Change of the fields at a misclassified voxel, in the smallest voxel spacing. */
 constexpr float PushOfMisclassified = 0.25f;
 
@@ -28,7 +27,6 @@ constexpr std::int64_t LeastVoxels = 8;
 
 /** Lower bound of the slope of half the field difference. */
 constexpr double LeastSlope = 0.3;
-/** Faces per span of a parallel sum. */
 constexpr std::size_t SpanSize = 4096;
 
 /** Return the slope of half the difference of the two fields of a face, at its centre. */

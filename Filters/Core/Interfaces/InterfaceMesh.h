@@ -72,7 +72,6 @@ public:
   }
   /** Number of the side x-min. */
   int FirstSide = std::numeric_limits<int>::max();
-  /** Coordinate of the plane of each side. */
   std::array<float, 6> Planes = { -Infinite, Infinite, -Infinite, Infinite, -Infinite, Infinite };
 
   bool IsSide(int object) const { return object >= this->FirstSide; }
@@ -144,13 +143,11 @@ public:
   /** Find the sorted objects and sides at a vertex. */
   void FindObjects(int v, std::vector<int>& objects) const;
 
-  /** Compute the strata of all vertices from the faces at their edges. */
   void FindStrata();
 
   /** Return the edges of junction lines, the lower vertex first. */
   std::vector<std::array<int, 2>> FindLines() const;
 
-  /** Return the faces of each object, from object 0 on. */
   std::vector<std::vector<int>> FindFacesOfObjects() const;
   /** Return the closed surface of an object and its parts; point n is the vertex vertices[n]. */
   IndexedSurface SurfaceOf(
@@ -164,7 +161,7 @@ public:
   }
 
   VectorD NormalOf(const Face& face) const; ///< length: twice the area
-  double MeanEdge() const;                  ///< mean edge length
+  double MeanEdge() const;
 
   /** Delete removed elements from all arrays. @param isSorted sort vertices by Z, Y and X */
   void Compact(bool isSorted = false);

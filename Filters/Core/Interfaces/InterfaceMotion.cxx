@@ -187,7 +187,6 @@ private:
     return triangle;
   }
 
-  /** Update the search structure for vertices that were moved back. */
   void UpdateClearance(const std::vector<int>& restored)
   {
     for (const int v : restored)

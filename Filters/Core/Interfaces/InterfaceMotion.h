@@ -16,12 +16,9 @@ namespace volumic
  * their initial positions. The result has no intersections, as the initial mesh has none. Lengths
  * are in computational space.
  *
- * @param relaxation    fraction of the tangential smoothing step
- * @param shortest      no edge is made shorter than this length
- * @param tolerance     triangles at a smaller distance count as intersecting
- * @param leastAngle    no angle of a triangle is reduced below this angle, in radians
- * @param straightening see VertexTargets
- * @param mostOfEdge    maximum length of a step, relative to the shortest edge of the vertex
+ * @param tolerance  triangles at a smaller distance count as intersecting
+ * @param leastAngle no angle of a triangle is reduced below this angle, in radians
+ * @see VertexTargets for the other parameters
  */
 void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps,
   double relaxation, double shortest, double tolerance, double leastAngle, Executor& executor,

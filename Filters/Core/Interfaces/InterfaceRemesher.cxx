@@ -17,7 +17,6 @@ namespace volumic
 {
 namespace
 {
-/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 4096;
 /**
  * Distance by which faces may extend beyond their cube, and edge length of a cube, both in longest
@@ -65,7 +64,6 @@ Box BoxOf(std::uint64_t cube, const Vector& low, float side)
   return { from, from + Vector(side, side, side) };
 }
 
-/** Edits of the faces of one cube. */
 class CubeEdits
 {
 public:
@@ -75,7 +73,6 @@ public:
   {
   }
 
-  /** Select the faces to edit in this cube. */
   void FindFaces(const FaceInCube* first, const FaceInCube* last)
   {
     for (; first != last; ++first)
@@ -108,7 +105,7 @@ public:
   }
 
   std::vector<int> Remaining; ///< faces left for the serial pass
-  int Count = 0;              ///< number of edits
+  int Count = 0;
 
 private:
   /** Return whether an edit of a face is independent of the edits in other cubes. */
@@ -219,7 +216,6 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   int count = 0;
   for (std::size_t n = 0; n < faces.size() && this->ShouldContinue();)
   {
-    // The cubes of one colour.
     const std::uint64_t colour = faces[n].Colour;
     std::vector<CubeEdits> cubes;
     std::vector<std::size_t> first;

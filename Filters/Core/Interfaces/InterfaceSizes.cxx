@@ -43,7 +43,6 @@ public:
     }
   }
 
-  /** Return the distances at the corners. */
   std::array<float, 3> AtCorners() const
   {
     return { this->At(this->Corner[0]), this->At(this->Corner[1]), this->At(this->Corner[2]) };

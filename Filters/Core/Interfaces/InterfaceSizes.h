@@ -12,7 +12,6 @@
 
 namespace volumic
 {
-/** Bounds of the vertex sizes. */
 struct SizeBounds
 {
   double Tolerance; ///< allowed distance of faces from the interfaces of the fields
@@ -26,8 +25,8 @@ struct SizeBounds
  * the distance of the middles of faces and edges from the interfaces, minus that of their corners,
  * as vertices of junction lines are displaced on purpose (VertexTargets).
  */
-void AdjustSizes(InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds,
-  Executor& executor);
+void AdjustSizes(
+  InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds, Executor& executor);
 
 /** Measure the distances of face centres and edge middles from the interfaces of the fields. */
 Fit MeasureFit(const InterfaceMesh& mesh, const InterfaceFields& fields,

@@ -45,10 +45,7 @@ std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
   return layers;
 }
 
-/**
- * Return the rank of each object: by the voxels of all its parts, then by number. The background
- * and then the outside of the box come last.
- */
+/** Return the ranks (StartInterfaces). The outside of the box comes last. */
 std::vector<int> RanksOf(const LabelBricks& bricks)
 {
   const LabelMap& map = bricks.Map();
@@ -68,7 +65,7 @@ std::vector<int> RanksOf(const LabelBricks& bricks)
   {
     ranks[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
   }
-  // Parts of one object do not meet, so that they can have the same rank.
+  // Parts of one object have one rank, as they do not meet.
   for (std::size_t object = 1; object <= count; ++object)
   {
     ranks[object] = ranks[map.Whole(static_cast<int>(object))];

@@ -19,7 +19,6 @@ struct JunctionWedge
   double Angle = std::numeric_limits<double>::infinity(); ///< dihedral angle in radians
 };
 
-/** Return the wedge with the smallest dihedral angle at an edge. */
 JunctionWedge NarrowestWedgeAt(
   const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces);
 

@@ -192,7 +192,7 @@ InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& op
   }
   catch (const OperationCancelled&)
   {
-    mesh.Compact(); // Do not return removed elements.
+    mesh.Compact();
   }
   if (fields.ArePeriodic())
   {

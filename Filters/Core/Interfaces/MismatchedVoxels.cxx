@@ -19,10 +19,8 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Faces or voxels per span of a parallel loop. */
 constexpr std::size_t SpanSize = 4096;
 
-/** Crossing of a row of voxel centres along x with a face. */
 struct FaceCrossing
 {
   std::int64_t Row;

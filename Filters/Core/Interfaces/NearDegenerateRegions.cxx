@@ -26,11 +26,10 @@ constexpr double NarrowWedge = 0.2;
 constexpr double NarrowGap = 0.15;
 /** Two triangles of one interface at a vertex form no gap if their normals have a larger cosine. */
 constexpr double FlatCosine = 0.5;
-/** Faces per span of a parallel loop. */
 constexpr std::size_t SpanSize = 1024;
-constexpr std::size_t GapSpanSize = 64; ///< the same for gaps, which take longer
+constexpr std::size_t GapSpanSize = 64; ///< smaller, as gaps take longer
 constexpr std::size_t VerticesPerProgressCall = 256;
-constexpr int Rounds = 4; ///< maximum number of passes
+constexpr int Rounds = 4;
 /** First and smallest step of a vertex, relative to its desired edge length. */
 constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
@@ -310,7 +309,7 @@ bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
 
 bool NearDegenerateRegions::AddGains()
 {
-  std::map<int, double> gains; // by object
+  std::map<int, double> gains;
   const std::array<double, 3>& step = this->Fields.Step();
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {

@@ -13,7 +13,6 @@
 
 namespace volumic
 {
-/** Extent of an object in bricks. */
 struct LabelExtent
 {
   std::int64_t Voxels = 0;

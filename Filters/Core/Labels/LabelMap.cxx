@@ -51,7 +51,7 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
         { (i + 1) * LayerSize, (j + 1) * LayerSize,
           all.End[2] } }.CommonWith(all);
       const Number first = voxels[all.NumberOf(box.First[0], box.First[1], box.First[2])];
-      part.fill(first); // Includes voxels beyond the map.
+      part.fill(first); // including voxels beyond the map
       bool isMixed = false;
       for (int z = box.First[2]; z < box.End[2]; ++z)
       {

@@ -37,7 +37,7 @@ public:
 
   /** Voxel spacing along each axis, relative to the smallest one: the unit of all label fields. */
   std::array<double, 3> Spacing = { 1., 1., 1. };
-  int NumberOfObjects = 0; ///< largest object number
+  int NumberOfObjects = 0;
   /** Object to which each object, from 0 on, belongs as a part (SeparateParts); empty: no parts. */
   std::vector<Number> WholeOf;
   Number Whole(int object) const
@@ -57,7 +57,6 @@ public:
 
   /** Set all voxels of a layer. @param voxels slices of the layer, x fastest */
   void PutLayer(int layer, const Number* voxels);
-  /** Return the box of all voxels of a layer. */
   VoxelBox Layer(int layer) const;
   /** Return the map of a box; voxels beyond this map are background. */
   LabelMap Part(const VoxelBox& box) const;

@@ -17,7 +17,6 @@ constexpr int LeastReach = 2;
 /** A Gaussian moves the boundary at the corner of a cube by 0.82 sigma along each axis. */
 constexpr double ReachInSigmas = 0.85;
 
-/** Call visit(axis, isNext, bits.Neighbored(axis, isNext)) for all six directions. */
 template <typename Visitor>
 void ForNeighbors(const VoxelBits& bits, Visitor&& visit)
 {

@@ -22,7 +22,6 @@ using Number = LabelMap::Number;
 /** Maximum object number: the sides of a box need numbers as well. */
 constexpr int MostObjects = std::numeric_limits<Number>::max() - 8;
 
-/** Consecutive voxels of one object along x. */
 struct Run
 {
   std::array<int, 3> First;
@@ -42,7 +41,6 @@ struct LabelPart
 class PartFinder
 {
 public:
-  /** @param objects sorted */
   PartFinder(const LabelMap& map, const std::vector<int>& objects)
     : Rows(VoxelBox::Of({ 1, map.Size()[1], map.Size()[2] })), FirstOfRow(1, 0)
   {
@@ -133,10 +131,7 @@ private:
   std::vector<std::size_t> FirstOfRow;
 };
 
-/**
- * Return the object, or background 0, with which a part shares most faces; the smallest number if
- * there are several.
- */
+/** Return the object or background that shares most faces with a part; the first of several. */
 Number NeighbourOf(const LabelPart& part, const LabelMap& map)
 {
   std::map<Number, std::int64_t> faces;
