@@ -41,8 +41,8 @@ struct InterfaceOptions
  *
  * @param fields   changed by step 3
  * @param progress callback with the completed fraction, called on the calling thread several times
- *                 a second. Returns false to cancel: the mesh is then free of intersections, but not
- *                 smooth, or empty.
+ *                 a second. Returns false to cancel: the mesh is then empty, or not smooth but free
+ *                 of intersections.
  */
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
   Executor& executor, const std::function<bool(double fraction)>& progress);
