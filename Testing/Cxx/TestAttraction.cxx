@@ -26,7 +26,7 @@ SurfaceOptions HalfOptions(double iso)
 }
 }
 
-TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
+TEST(PointAttraction, AddsHalfStrengthAtRadius)
 {
   // 50 below the iso-value, with boundaries of 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
   const TestVolume volume = Half();
@@ -39,7 +39,7 @@ TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
   }
 }
 
-TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
+TEST(PointAttraction, ChangesOnlyVoxelsInRangeForAnyThreadCount)
 {
   const TestVolume volume = Half();
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
@@ -60,7 +60,7 @@ TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
   EXPECT_GT(changed, 900);
 }
 
-TEST(EdgeAttraction, LeadsToTheRidgeFromBothSidesWhateverTheScale)
+TEST(EdgeAttraction, PointsToRidgeFromBothSidesAtAnyScale)
 {
   for (double scale : { 0.01, 1000. })
   {

@@ -120,7 +120,7 @@ vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const S
 }
 }
 
-TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
+TEST(PointAttractionScene, ClosesGapWithFewPoints)
 {
   const Scene scene = MakeScene(SceneKind::ShellWithOpening);
   const auto image = ToImage(scene);
@@ -140,7 +140,7 @@ TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
   EXPECT_EQ(VolumeOf(closed), VolumeOf(leaking));
 }
 
-TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
+TEST(EdgeAttractionScene, SegmentsShadedObject)
 {
   const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
   ASSERT_FALSE(scene.OneIsoValueFits);
@@ -156,11 +156,11 @@ TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
     const SurfaceVerdict verdict = JudgeOutput(filter);
     EXPECT_EQ(verdict.Topology.Components.size(), 1u);
     EXPECT_EQ(verdict.Topology.Genus, 0);
-    EXPECT_LT(ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
+    EXPECT_LT(MisclassifiedFraction(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
   }
 }
 
-TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
+TEST(GradientForce, SegmentsShadedObject)
 {
   // Descent along the gradient of the negative gradient magnitude, whose valleys are the
   // boundaries.
@@ -187,5 +187,5 @@ TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
   EXPECT_EQ(topology.Components.size(), 1u);
   EXPECT_EQ(topology.Genus, 0);
   EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
-  EXPECT_LT(ShareOfWrongVoxels(surface, scene), 0.02);
+  EXPECT_LT(MisclassifiedFraction(surface, scene), 0.02);
 }

@@ -151,7 +151,7 @@ private:
 };
 }
 
-TEST(BlockSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
+TEST(BlockSchedule, RunsEachBlockOnceAndNeverWithNeighbours)
 {
   std::mt19937 random(20);
   for (const int threads : { 1, 2, 5 })
@@ -187,7 +187,7 @@ TEST(BlockSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
   }
 }
 
-TEST(BlockSchedule, MakesWhatOneThreadWouldMake)
+TEST(BlockSchedule, IsIndependentOfThreadCount)
 {
   // What a visit makes depends on what those that it touches have made before.
   std::mt19937 random(4);
@@ -221,7 +221,7 @@ TEST(BlockSchedule, MakesWhatOneThreadWouldMake)
   }
 }
 
-TEST(BlockSchedule, KeepsTheOrderOnOneThread)
+TEST(BlockSchedule, PreservesOrderOnOneThread)
 {
   std::mt19937 random(5);
   const Neighbours neighbours = GridOf({ 5, 4, 3 }, 0.7, random);
@@ -234,7 +234,7 @@ TEST(BlockSchedule, KeepsTheOrderOnOneThread)
   EXPECT_EQ(visited, order);
 }
 
-TEST(BlockSchedule, WaitsForNoMoreThanWhatItTouches)
+TEST(BlockSchedule, WaitsOnlyForNeighbours)
 {
   // The first one ends when all have been visited but the one that touches it.
   constexpr int n = 40;
@@ -249,14 +249,14 @@ TEST(BlockSchedule, WaitsForNoMoreThanWhatItTouches)
     [&](int item)
     {
       others += item > 1;
-      isFree = isFree || (item == 0 && HasReachedEnd([&] { return others == n - 2; }));
+      isFree = isFree || (item == 0 && WaitFor([&] { return others == n - 2; }));
     },
     Always);
   EXPECT_TRUE(isFree);
   EXPECT_EQ(others, n - 2);
 }
 
-TEST(BlockSchedule, HandsOnWhatAVisitThrows)
+TEST(BlockSchedule, RethrowsExceptions)
 {
   constexpr int n =
     5000; // More than can be made before others hear of it, on a machine however slow.
@@ -303,7 +303,7 @@ TEST(BlockSchedule, HandsOnWhatAVisitThrows)
   }
 }
 
-TEST(BlockSchedule, IdleThreadsShareTheLoopsOfAVisit)
+TEST(BlockSchedule, RunsNestedLoopsOnIdleThreads)
 {
   Executor threads(3);
   std::set<std::thread::id> seen;
@@ -319,13 +319,13 @@ TEST(BlockSchedule, IdleThreadsShareTheLoopsOfAVisit)
     [&](int)
     {
       threads.For(
-        30, 1, [&](std::size_t, std::size_t) { HasReachedEnd([&] { return count() == 3; }); });
+        30, 1, [&](std::size_t, std::size_t) { WaitFor([&] { return count() == 3; }); });
     },
     Always);
   EXPECT_EQ(seen.size(), 3u);
 }
 
-TEST(BlockSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
+TEST(BlockSchedule, CompletesNestedLoopsAfterException)
 {
   Executor threads(3);
   std::atomic<bool> isInLoop{ false };
@@ -336,7 +336,7 @@ TEST(BlockSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
                  {
                    if (item == 0)
                    {
-                     HasReachedEnd([&] { return isInLoop.load(); });
+                     WaitFor([&] { return isInLoop.load(); });
                      throw std::runtime_error("bad");
                    }
                    threads.For(400, 1,
@@ -352,7 +352,7 @@ TEST(BlockSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
   EXPECT_EQ(done, 400);
 }
 
-TEST(BlockSchedule, CancelsAfterTheVisitAtWhichItIsRequested)
+TEST(BlockSchedule, CancelsAfterRequestedBlock)
 {
   const BlockSchedule schedule = Apart(50);
   Executor thread;
@@ -374,7 +374,7 @@ TEST(BlockSchedule, CancelsAfterTheVisitAtWhichItIsRequested)
   }
 }
 
-TEST(BlockSchedule, CancelsOnThreads)
+TEST(BlockSchedule, CancelsOnSeveralThreads)
 {
   constexpr int n = 50000; // More than can be made before the request, on a machine however slow.
   Executor threads(4);

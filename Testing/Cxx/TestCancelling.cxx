@@ -8,17 +8,17 @@ namespace
 {
 using Activity = Monitor::Activity;
 
-/** Says stop at the n-th question of an activity, and keeps what it has heard. */
+/** Says stop at the n-th query of an activity, and keeps what it has heard. */
 class StopAt final : public Monitor
 {
 public:
   StopAt() = default;
-  StopAt(int level, Activity doing, int question) : Level(level), Doing(doing), Left(question) {}
+  StopAt(int level, Activity doing, int query) : Level(level), Doing(doing), Left(query) {}
 
   bool GoOn(const Status& status) override
   {
-    this->QuestionsAfter += this->HasStopped;
-    ++this->Questions[{ status.Level, status.Doing }];
+    this->QueriesAfterCancel += this->HasStopped;
+    ++this->Queries[{ status.Level, status.Doing }];
     EXPECT_GE(status.Fraction, 0.);
     EXPECT_LE(status.Fraction, 1.);
     this->Fractions.push_back(10. - status.Level + status.Fraction);
@@ -28,9 +28,9 @@ public:
   }
 
   std::vector<double> Fractions; ///< Level by level, added to those before.
-  std::map<std::pair<int, Activity>, int> Questions;
+  std::map<std::pair<int, Activity>, int> Queries;
   bool HasStopped = false;
-  int QuestionsAfter = 0;
+  int QueriesAfterCancel = 0;
 
 private:
   int Level = -5;
@@ -96,7 +96,7 @@ class Cancelling : public ::testing::TestWithParam<bool>
 {
 };
 
-TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
+TEST_P(Cancelling, WorksInAllPhasesOfLevel)
 {
   const LevelPair scene = Scene();
   StopAt silent;
@@ -106,32 +106,32 @@ TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
   ASSERT_EQ(evolution.Missed().EnclosedCavities, 1);
   EXPECT_TRUE(GetParam() || std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
     << "progress never goes back";
-  EXPECT_GE((silent.Questions[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);
-  EXPECT_GE((silent.Questions[{ 0, Activity::Dividing }]), GetParam() ? 2 : 1);
-  EXPECT_GE((silent.Questions[{ 0, Activity::Recovering }]), 7)
+  EXPECT_GE((silent.Queries[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);
+  EXPECT_GE((silent.Queries[{ 0, Activity::Dividing }]), GetParam() ? 2 : 1);
+  EXPECT_GE((silent.Queries[{ 0, Activity::Recovering }]), 7)
     << "objects and cavities, and the end";
-  EXPECT_GE((silent.Questions[{ 0, Activity::Iterating }]), 2 * evolution.Iterations() / 5)
+  EXPECT_GE((silent.Queries[{ 0, Activity::Iterating }]), 2 * evolution.Iterations() / 5)
     << "a visit, and after the sweep";
-  EXPECT_GE((silent.Questions[{ 0, Activity::Regularising }]), 4) << "passes and polish";
+  EXPECT_GE((silent.Queries[{ 0, Activity::Regularising }]), 4) << "passes and polish";
 
   // Now stopped at each of these questions, but only at some of the many after iterations.
-  for (const auto& [where, count] : silent.Questions)
+  for (const auto& [where, count] : silent.Queries)
   {
     const bool isIterating = where.second == Activity::Iterating;
-    for (int question = 1; question <= count; question += isIterating ? 5 : 1)
+    for (int query = 1; query <= count; query += isIterating ? 5 : 1)
     {
       SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
-        std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
-      StopAt monitor(where.first, where.second, question);
+        std::to_string(static_cast<int>(where.second)) + ", query " + std::to_string(query));
+      StopAt monitor(where.first, where.second, query);
       TestEvolution stopped(Options(), Threads, monitor);
       const StopReason reason = RunIn(scene, stopped, GetParam());
       ASSERT_TRUE(monitor.HasStopped);
       EXPECT_TRUE(stopped.IsStopped());
       // Before anything of the fine level is done, the coarse one is at rest.
       const bool isBetween =
-        where.first == 1 && where.second == Activity::Regularising && question == count;
+        where.first == 1 && where.second == Activity::Regularising && query == count;
       EXPECT_EQ(reason, isBetween ? StopReason::Converged : StopReason::Cancelled);
-      EXPECT_EQ(monitor.QuestionsAfter, 0);
+      EXPECT_EQ(monitor.QueriesAfterCancel, 0);
       EXPECT_TRUE(where.second == Activity::Starting || !stopped.Result().Points.empty());
       ExpectValid(stopped, isIterating);
     }

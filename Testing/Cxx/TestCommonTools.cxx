@@ -30,7 +30,7 @@ TEST(DisjointSets, RootIsTheSmallestMember)
   }
 }
 
-TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
+TEST(DisjointSets, AreIndependentOfThreadCount)
 {
   constexpr int n = 3000;
   std::mt19937 random(7);
@@ -63,7 +63,7 @@ TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
   }
 }
 
-TEST(Lanes, ComputeWhatOneFloatDoes)
+TEST(Lanes, EqualScalarArithmetic)
 {
   const auto laneOf = [](const Lanes& lanes, int i)
   {
@@ -102,7 +102,7 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
   }
 }
 
-TEST(Join, WritesNumbersAsEveryoneReadsThem)
+TEST(Join, IgnoresLocale)
 {
   const CommaLocale locale;
   std::ostringstream local;
@@ -113,7 +113,7 @@ TEST(Join, WritesNumbersAsEveryoneReadsThem)
   EXPECT_EQ(ErrorMessageOf([] { ThrowInvalidArgument("it is ", 1234.5, "."); }), "it is 1234.5.");
 }
 
-TEST(VoxelNumbers, ComeBackToTheirPlaces)
+TEST(VoxelNumbers, InvertIndices)
 {
   for (const std::array<int, 3>& size : { std::array<int, 3>{ 1300, 1300, 1300 },
          { 2048, 2048, 2048 }, { 3, 5, 7 }, { 65536, 65536, 2 }, { 1, 1, 70000 } })
@@ -142,7 +142,7 @@ double ResidentMegabytes()
 }
 }
 
-TEST(FreeMemory, IsGivenBackThoughABlockBehindItIsInUse)
+TEST(FreeMemory, IsReleasedBelowBlockInUse)
 {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "another allocator";

@@ -32,7 +32,7 @@ struct Facing : Stage
 };
 }
 
-TEST(Contact, StopsWhatComesNear)
+TEST(Contact, StopsApproachingVertices)
 {
   Facing stage(1.2);
   stage.State.Velocity[Facing::Left] = Vector(0.2f, 0.1f, 0);
@@ -43,7 +43,7 @@ TEST(Contact, StopsWhatComesNear)
   EXPECT_GT(stage.State.Velocity[Facing::Left].Y, 0.01) << "sliding by is allowed";
 }
 
-TEST(Contact, AtAFrozenVertexStopsAltogether)
+TEST(Contact, StopsAtFrozenVertex)
 {
   Facing stage(1.2);
   stage.State.Velocity[Facing::Left] = Vector(0.2f, 0, 0);
@@ -54,7 +54,7 @@ TEST(Contact, AtAFrozenVertexStopsAltogether)
   EXPECT_EQ(Length(stage.State.Velocity[Facing::Right]), 0);
 }
 
-TEST(Contact, LetsGoWhatDepartsAndWhatIsFar)
+TEST(Contact, IgnoresDepartingAndDistantVertices)
 {
   Facing departing(1.2);
   departing.State.Velocity[Facing::Left] = Vector(-0.2f, 0, 0);
@@ -69,7 +69,7 @@ TEST(Contact, LetsGoWhatDepartsAndWhatIsFar)
   EXPECT_NEAR(far.State.Velocity[Facing::Right].X, 0, 1e-6);
 }
 
-TEST(Contact, PushesApartWhatIsNearerThanDelta)
+TEST(Contact, SeparatesVerticesCloserThanDelta)
 {
   Facing stage(0.6);
   const double step = stage.Push(stage.Pairs());
@@ -79,7 +79,7 @@ TEST(Contact, PushesApartWhatIsNearerThanDelta)
   EXPECT_NEAR(Length(way), 0.6 + 2 * 0.25 * 0.4, 1e-4) << "step " << step;
 }
 
-TEST(Contact, StopsSmoothingToo)
+TEST(Contact, StopsSmoothing)
 {
   // The tip of the left one is drawn back by its neighbours, the right one is held by its own.
   for (const bool contact : { false, true })
@@ -123,7 +123,7 @@ float SpeedAcross(bool hole, double value)
 }
 }
 
-TEST(Contact, LetsHolesAndWaistsCloseWhereTheImageWantsIt)
+TEST(Contact, LetsHolesCloseInObjectAndWaistsInBackground)
 {
   // Two vertices with a common neighbour: short of the cycle of three that a cut needs.
   EXPECT_GT(SpeedAcross(true, 1.), 0.015) << "a hole in the object";
@@ -178,7 +178,7 @@ protected:
 };
 }
 
-TEST_F(Freezing, TakesThreeIterationsOfRest)
+TEST_F(Freezing, FreezesAfterThreeMotionlessIterations)
 {
   this->Actors.State.Velocity[7] = Vector(0.1f, 0, 0);
   for (int i = 0; i < 2; ++i)
@@ -191,7 +191,7 @@ TEST_F(Freezing, TakesThreeIterationsOfRest)
   EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what is motionless has no velocity";
 }
 
-TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursActive)
+TEST_F(Freezing, KeepsMovingVertexAndNeighboursActive)
 {
   for (int i = 0; i < 10; ++i)
   {
@@ -222,7 +222,7 @@ TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
   }
 }
 
-TEST_F(Freezing, SlowMotionIsMotion)
+TEST_F(Freezing, KeepsSlowlyMovingVertexActive)
 {
   // A hundredth of delta is not visible at once, but it adds up.
   for (int i = 0; i < 20; ++i)

@@ -51,7 +51,7 @@ struct TwoBalls : Bench
 };
 }
 
-TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
+TEST(ContactCount, CountsFacingVerticesOffIsosurface)
 {
   // Up to 1.15 lambda delta = 1.66; the floor of the slope is .15, a tenth of it .015.
   for (const double gap : { 1.5, 1.9 })

@@ -26,7 +26,7 @@ TestVolume Noise(int n, unsigned seed)
 }
 }
 
-TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
+TEST(CycleCriterion, IsNotMetByProgress)
 {
   std::mt19937 engine(2);
   CycleCriterion steady;
@@ -44,7 +44,7 @@ TEST(CycleCriterion, IsNotMetByWhatGetsSomewhere)
   }
 }
 
-TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
+TEST(EndlessRuns, StopsNoiseAsLimitCycle)
 {
   const TestVolume volume = Noise(20, 5);
   SurfaceOptions options = IsoHalf();
@@ -63,7 +63,7 @@ TEST(EndlessRuns, NoiseThatMergesAndCutsInTurnIsALimitCycle)
   EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
 }
 
-TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
+TEST(EndlessRuns, BoundsWorkForReplicatedCheckerboard)
 {
   const TestVolume volume = MakeVolume(20, [](double x, double y, double z)
     { return (static_cast<int>(x / 3) + static_cast<int>(y / 3) + static_cast<int>(z / 3)) % 2; });
@@ -80,7 +80,7 @@ TEST(EndlessRuns, ACheckerboardAtAReplicatedBorderCostsLittle)
   EXPECT_LT(Work(evolution), 2e6);
 }
 
-TEST(EndlessRuns, StrongInnerForcesComeToRest)
+TEST(EndlessRuns, ConvergesWithStrongInternalForces)
 {
   // Springs and tension that the time step cannot follow swung themselves up to wrinkles.
   const TestVolume volume = MakeVolume(28, [](double x, double y, double z)

@@ -43,7 +43,7 @@ std::size_t RunBothLevels(TestEvolution& evolution, const LevelPair& scene)
 }
 }
 
-TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
+TEST(EvolutionHistory, MostVerticesConvergeImmediatelyAfterDivision)
 {
   // The finer field has been descended before it, so that most vertices rest at once, whatever the
   // coarse image has blurred; where other forces drive, nobody knows where to.
@@ -64,7 +64,7 @@ TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
   }
 }
 
-TEST(EvolutionHistory, LastRowDescribesTheSurfaceOfTheLevel)
+TEST(EvolutionHistory, LastRowDescribesSurfaceOfLevel)
 {
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   std::size_t last = 0; // Vertices after the last iteration.
@@ -79,7 +79,7 @@ TEST(EvolutionHistory, LastRowDescribesTheSurfaceOfTheLevel)
   EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
 }
 
-TEST(EvolutionHistory, CountsWhatHappensToAComponentThatIsDeleted)
+TEST(EvolutionHistory, CountsDeletedComponents)
 {
   SurfaceState state;
   state.Mesh.Append(MakeTorus({ 0, 0, 0 }, 8, 3, 24, 10));
@@ -94,7 +94,7 @@ TEST(EvolutionHistory, CountsWhatHappensToAComponentThatIsDeleted)
   EXPECT_EQ(state.EulerCharacteristic, 0);
 }
 
-TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
+TEST(EvolutionHistory, SecondsAddUpToElapsedTime)
 {
   const LevelPair scene = SceneWithLostBalls();
   TestEvolution evolution(IsoHalf(), Threads, Silent);

@@ -9,7 +9,7 @@
 
 using namespace volumic;
 
-TEST(Executor, CoversEveryItemOnce)
+TEST(Executor, CoversEachItemOnce)
 {
   Executor threads(4);
   ASSERT_EQ(threads.NumberOfThreads(), 4);
@@ -34,7 +34,7 @@ TEST(Executor, CoversEveryItemOnce)
   }
 }
 
-TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
+TEST(Executor, UsesRequestedNumberOfThreads)
 {
   for (const std::size_t number : { 1, 3 })
   {
@@ -49,7 +49,7 @@ TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
     };
     // The first items wait for all threads.
     threads.For(
-      300, 1, [&](std::size_t, std::size_t) { HasReachedEnd([&] { return count() >= number; }); });
+      300, 1, [&](std::size_t, std::size_t) { WaitFor([&] { return count() >= number; }); });
     EXPECT_EQ(seen.size(), number);
   }
 }
@@ -83,7 +83,7 @@ TEST(Executor, RethrowsExceptionsAndContinues)
   EXPECT_EQ(done, 100);
 }
 
-TEST(Executor, CompletesLoopsWithinBodiesWhenAnotherBodyFails)
+TEST(Executor, CompletesNestedLoopsAfterException)
 {
   Executor threads(3);
   std::atomic<int> incomplete{ 0 };

@@ -60,7 +60,7 @@ protected:
 };
 }
 
-TEST_P(FarFromZero, APyramidKeepsTheDifferences)
+TEST_P(FarFromZero, PyramidPreservesDifferences)
 {
   const auto pyramid = PyramidOf(BallAt(Far, GetParam()));
   const auto nearby = PyramidOf(BallAt(0.0, VTK_SHORT));
@@ -77,12 +77,12 @@ TEST_P(FarFromZero, APyramidKeepsTheDifferences)
   }
 }
 
-TEST_P(FarFromZero, OneLevelGivesTheSameBits)
+TEST_P(FarFromZero, SingleLevelIsBitIdentical)
 {
   ExpectSame(0.0, OnOneLevel);
 }
 
-TEST_P(FarFromZero, ThroughThePyramid)
+TEST_P(FarFromZero, MultipleLevelsAgree)
 {
   ExpectSame(1e-3, [](vtkDeformableSurface*) {});
 }
@@ -90,7 +90,7 @@ TEST_P(FarFromZero, ThroughThePyramid)
 INSTANTIATE_TEST_SUITE_P(Types, FarFromZero,
   ::testing::Values(VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_DOUBLE));
 
-TEST(FarFromZeroFloat, VoxelsAreNotRoundedAnyFurther)
+TEST(FarFromZeroFloat, InterpolatesBetweenRoundedVoxels)
 {
   // Steps of 1/16 at 10^6: the voxels hold the ball; what is interpolated between them must not be
   // rounded to such steps.
@@ -107,7 +107,7 @@ TEST(FarFromZeroFloat, VoxelsAreNotRoundedAnyFurther)
   EXPECT_GT(between, residual->GetNumberOfTuples() / 2);
 }
 
-TEST(FarFromZeroFloat, LevelsOfOtherIntegersStayFloat)
+TEST(FarFromZeroFloat, SmallIntegersGiveFloatLevels)
 {
   for (const double base : { 0.0, -1024.0, 5000.0 })
   {

@@ -42,7 +42,7 @@ TEST(Field, GradientInterpolatesCentralDifferences)
   EXPECT_NEAR(g.Z, -6.4, 1e-4);
 }
 
-TEST(Field, GradientIsPerLengthOfTheWorkspace)
+TEST(Field, GradientIsInComputationalSpace)
 {
   TestVolume volume = MakeVolume(8, [](double x, double y, double z) { return x + y + z; });
   volume.Image.Step = { 2., 5., 4. };
@@ -54,7 +54,7 @@ TEST(Field, GradientIsPerLengthOfTheWorkspace)
   EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
 }
 
-TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
+TEST(Field, ReachesBackgroundWithinOneVoxelOfBorder)
 {
   for (const bool bright : { true, false })
   {
@@ -72,7 +72,7 @@ TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
   }
 }
 
-TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
+TEST(Field, ReplicatesWithinMarginOfTwoUnits)
 {
   // Along z a voxel is longer than the margin.
   for (const bool bright : { true, false })
@@ -101,7 +101,7 @@ TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
   }
 }
 
-TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
+TEST(Field, IsMinimalOutside)
 {
   // The object lies as far above the iso-value as the background below it, or less, or more.
   const TestVolume volume = MakeVolume(8, [](double x, double, double)
@@ -116,7 +116,7 @@ TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
   }
 }
 
-TEST(Field, KnowsHowSteepTheSurfaceIsWhereItLies)
+TEST(Field, MeasuresSlopeAtIsosurface)
 {
   // What is steeper, or flatter, elsewhere does not count; lengths are those of the workspace.
   for (int axis = 0; axis < 2; ++axis)

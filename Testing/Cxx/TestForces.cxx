@@ -15,7 +15,7 @@ double SpeedUnder(double force, const SurfaceOptions& options, double step)
 }
 }
 
-TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
+TEST(Forces, IsopotentialSaturatesAtThreeQuartersOfDelta)
 {
   // However much the image differs between object and background.
   for (const double contrast : { 1., 1e4 })
@@ -37,7 +37,7 @@ TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
   }
 }
 
-TEST(Forces, IsopotentialIsSoftOnPlateaus)
+TEST(Forces, IsopotentialIsWeakOnPlateaus)
 {
   // The background lies a little under the iso-value: no reason to go at full speed.
   Stage stage(12);
@@ -50,7 +50,7 @@ TEST(Forces, IsopotentialIsSoftOnPlateaus)
     stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.1 * std::abs(force));
 }
 
-TEST(Forces, InternalForcesAddUpToNothing)
+TEST(Forces, InternalForcesSumToZero)
 {
   // Action and reaction: also on an uneven mesh the whole is not pushed anywhere.
   Stage stage(8);
@@ -74,7 +74,7 @@ TEST(Forces, InternalForcesAddUpToNothing)
   EXPECT_LT(Length(sum), 1e-4 * size);
 }
 
-TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
+TEST(Forces, TensionPullsToBarycentreWithReaction)
 {
   Stage stage(EvenOctahedron({ 16, 16, 16 }, 1.6), 1);
   stage.Options.TensionWeight = 0.2;
@@ -88,7 +88,7 @@ TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
   EXPECT_NEAR(stage.State.Velocity[0].X, SpeedUnder(force, stage.Options, step), 1e-5);
 }
 
-TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
+TEST(Forces, ElasticityHasRestLengthOfOnePointSixDelta)
 {
   for (const float delta : { 1.f, 2.f })
   {
@@ -106,7 +106,7 @@ TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
   }
 }
 
-TEST(Forces, AreTheSameAtEveryScale)
+TEST(Forces, ScaleWithDelta)
 {
   // The same scene twice as large, as at a coarser level: everything is twice as fast.
   Stage fine(10);
@@ -132,7 +132,7 @@ TEST(Forces, AreTheSameAtEveryScale)
   }
 }
 
-TEST(Forces, GradientForceIsBoundedAndLooksAtTheImageNotAtTheObject)
+TEST(Forces, GradientForceIsBoundedAndIgnoresIsoValue)
 {
   // Up to radius 12 the potential falls outward, whatever is above or below the iso-value.
   for (const bool bright : { true, false })
@@ -154,7 +154,7 @@ TEST(Forces, GradientForceIsBoundedAndLooksAtTheImageNotAtTheObject)
   }
 }
 
-TEST(Forces, MapOfEdgesPullsToTheRidge)
+TEST(Forces, EdgeAttractionPullsToRidge)
 {
   for (const double radius : { 7., 9. })
   {
@@ -171,7 +171,7 @@ TEST(Forces, MapOfEdgesPullsToTheRidge)
   }
 }
 
-TEST(Forces, WhatKnowsNoBackgroundGivesWayToItBeyondTheMargin)
+TEST(Forces, EdgeAndGradientForcesPointInwardBeyondMargin)
 {
   // The image is flat out there, and so is the map of edges: neither pushes anywhere.
   const TestVolume map = MakeVolume(33, [](double x, double, double) { return x < 16 ? 0. : 1.; });

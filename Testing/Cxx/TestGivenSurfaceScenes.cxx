@@ -194,7 +194,7 @@ class GivenSurfaces : public ::testing::TestWithParam<const char*>
 {
 };
 
-TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
+TEST_P(GivenSurfaces, AreValidAtStartAndEnd)
 {
   const TestVolume volume = MakeVolume(Size, [](double x, double y, double z)
     { return Soft(Distance(x, y, z, Middle, Middle, Middle) - 12.0); });

@@ -151,7 +151,7 @@ Grading ThinParts()
 }
 }
 
-TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
+TEST(GradedSizing, HasLargerSearchRadiusThanUniformSizing)
 {
   const LargeVector<float> sizes = { 1.f, 4.f };
   const SizingField even(1.f);
@@ -176,7 +176,7 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
   EXPECT_EQ(any.SearchRadius(0), SizingField(4.f).SearchRadius(0));
 }
 
-TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
+TEST(GradedSurface, RespectsGradationAndMaximumEdgeLength)
 {
   Grading grading = Within(2.);
   grading.MaximumEdgeLength = 5.;
@@ -197,7 +197,7 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
   EXPECT_FLOAT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
 }
 
-TEST(GradedSurface, KeepsThinWallsWithoutHoles)
+TEST(GradedSurface, PreservesThinWalls)
 {
   for (const double thickness : { 1.5, 2.5, 4. })
   {
@@ -214,7 +214,7 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
   }
 }
 
-TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
+TEST(LocalDivision, DividesOnlyWhereToleranceRequires)
 {
   const SurfaceResult coarse = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(100.)).Divided;
   ExpectLegal(coarse);
@@ -234,14 +234,14 @@ TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
     0.002 * ComputeFeatures(whole).Volume);
 }
 
-TEST(LocalDivision, IsDividedEverywhereWhereNearlyAllOfItAsksForThat)
+TEST(LocalDivision, DividesEverywhereForSmallTolerance)
 {
   const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
   EXPECT_TRUE(all.Divided.Size.empty()) << "it is even until it rests";
   ExpectLegal(all.AtRest);
 }
 
-TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
+TEST(LocalDivision, PreservesObliquePlate)
 {
   const TwoLevels levels =
     SurfaceOfTwoLevels(OutsideBlurredPlate(1.), ThinParts(), 1. / std::sqrt(3.));

@@ -17,7 +17,7 @@ long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
 }
 }
 
-TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
+TEST(History, KineticEnergyMatchesTerminalSpeedAndVanishes)
 {
   const TestVolume volume = BallVolume(40, 8);
   for (const double friction : { 3., 5. })
@@ -38,7 +38,7 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
   }
 }
 
-TEST(History, RowsTellTheStateAfterTheirSweep)
+TEST(History, RowsDescribeStateAfterSweep)
 {
   const TestVolume volume = BallVolume(28, 7);
   TestEvolution evolution(IsoHalf(), Threads, Silent);
@@ -69,7 +69,7 @@ TEST(History, RowsTellTheStateAfterTheirSweep)
   EXPECT_GT(rows[rows.size() - 6].ActiveVertices, 0) << "at the end of the sweep before";
 }
 
-TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
+TEST(History, ArrivedVerticesFreezeIfEnabled)
 {
   const TestVolume volume = BallVolume(32, 10);
   for (const bool freeze : { true, false })
@@ -102,7 +102,7 @@ TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
   }
 }
 
-TEST(History, CountsOfMergesAndCutsExplainTheTopology)
+TEST(History, EditCountsExplainTopology)
 {
   // Two seeds grow around a ring.
   const TestVolume volume = MakeVolume(40,
@@ -134,7 +134,7 @@ TEST(History, CountsOfMergesAndCutsExplainTheTopology)
   EXPECT_GT(Sum(rows, &HistoryRow::Flips), 50);
 }
 
-TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
+TEST(History, LevelConvergesWithItsVolume)
 {
   const TestVolume volume = BallVolume(32, 10);
   std::vector<std::size_t> iterations;

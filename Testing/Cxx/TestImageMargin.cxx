@@ -48,7 +48,7 @@ double Most(const LevelImage& image, double delta)
 }
 }
 
-TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
+TEST(ImageMargin, ReplicatedObjectClosesAtMargin)
 {
   TestVolume volume = Rod();
   for (const double step : { 1., 2.5 }) // Along x: the margin is a voxel where that is longer.
@@ -67,7 +67,7 @@ TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
   }
 }
 
-TEST(ImageMargin, NoSettingLeadsFurtherOut)
+TEST(ImageMargin, BoundsSurfaceForAnySettings)
 {
   std::mt19937 engine(7);
   const auto uniform = [&engine](double low, double high)

@@ -25,7 +25,7 @@ LevelImage ImageOf(const std::array<int, 3>& size, const Point& step)
 }
 }
 
-TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
+TEST(InitialSurface, EnclosingSurfaceHasValidEdgesForAnyBox)
 {
   // Voxels of 1 : 20, sheets, rods, a single cell: a sphere mapped to these had edges of .1 delta.
   for (const LevelImage& image : { ImageOf({ 30, 20, 10 }, { 1, 1, 2 }),
@@ -52,7 +52,7 @@ TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
   }
 }
 
-TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
+TEST(InitialSurface, RejectsExtremeSpacing)
 {
   EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
   for (const double step : { 1e6, 1e20, 1e300 })
@@ -65,14 +65,14 @@ TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
   }
 }
 
-TEST(InitialSurface, RefusesAnAreaOfTooManyVertices)
+TEST(InitialSurface, RejectsTooManyVertices)
 {
   const LevelImage image = ImageOf({ 20, 20, 20 }, { 1, 1, 1e6 });
   EXPECT_NO_THROW(CheckNumberOfVertices(1e7, image, 1.));
   EXPECT_THROW(CheckNumberOfVertices(1e8, image, 1.), std::invalid_argument);
 }
 
-TEST(InitialSurface, SeedsLieInTheObjectAndApart)
+TEST(InitialSurface, SeedsAreInObjectAndApart)
 {
   const TestVolume volume = Half();
   const Field field(volume.Image, SurfaceOptions(), Threads);
@@ -85,7 +85,7 @@ TEST(InitialSurface, SeedsLieInTheObjectAndApart)
   EXPECT_THROW(ChooseSeeds(field, { { 15, 5, 5 } }, 3), std::invalid_argument);
 }
 
-TEST(InitialSurface, WithoutPlacesSeedsAreAGridInTheObject)
+TEST(InitialSurface, DefaultSeedsFormGridInObject)
 {
   const TestVolume volume = Half();
   const Field field(volume.Image, SurfaceOptions(), Threads);
@@ -97,7 +97,7 @@ TEST(InitialSurface, WithoutPlacesSeedsAreAGridInTheObject)
   }
 }
 
-TEST(InitialSurface, AnIsoSurfaceHasEvenTheSmallestParts)
+TEST(InitialSurface, IsosurfaceHasSmallestParts)
 {
   // A voxel, beside a ball.
   const TestVolume volume = MakeVolume(32,

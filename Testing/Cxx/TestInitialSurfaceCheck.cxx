@@ -61,7 +61,7 @@ std::string ErrorMessageOf(const IndexedSurface& surface)
 }
 }
 
-TEST(InitialSurfaceCheck, KeepsItsComponentsCavitiesAndTunnels)
+TEST(InitialSurfaceCheck, PreservesComponentsCavitiesAndTunnels)
 {
   // A torus, a thick-walled box, both of large triangles, and a ball of many small ones.
   const TestVolume volume = Ball();
@@ -79,7 +79,7 @@ TEST(InitialSurfaceCheck, KeepsItsComponentsCavitiesAndTunnels)
   EXPECT_NEAR(features.Volume / ComputeFeatures(given).Volume, 1., 0.03);
 }
 
-TEST(InitialSurfaceCheck, IsTakenAsItIsWhereItIsLegal)
+TEST(InitialSurfaceCheck, PreservesValidMesh)
 {
   const TestVolume volume = Ball();
   TestEvolution first(IsoHalf(), Threads, Silent);
@@ -99,7 +99,7 @@ TEST(InitialSurfaceCheck, IsTakenAsItIsWhereItIsLegal)
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
 }
 
-TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
+TEST(GivenSurfaceInvalid, RejectsWrongUnits)
 {
   const std::string text = ErrorMessageOf(Cylinder(13000, 25500, 12));
   EXPECT_TRUE(Has(text, "too large for the image"));
@@ -109,7 +109,7 @@ TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
   EXPECT_EQ(ErrorMessageOf(Cylinder(35, 70, 12)), "") << "what encloses the image generously";
 }
 
-TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
+TEST(GivenSurfaceInvalid, RejectsSurfaceThinnerThanEdges)
 {
   EXPECT_EQ(ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "");
   const std::string text = ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
@@ -117,14 +117,14 @@ TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
   EXPECT_TRUE(Has(text, "finer level"));
 }
 
-TEST(GivenSurfaceInvalid, RefusesWhatVanishesWithinATriangleOrTwo)
+TEST(GivenSurfaceInvalid, RejectsSurfaceSmallerThanEdges)
 {
   const std::string text = ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
   EXPECT_TRUE(Has(text, "too small for this level"));
   EXPECT_EQ(ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 3., 0.2)), "");
 }
 
-TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
+TEST(GivenSurfaceInvalid, RejectsMisorientedComponents)
 {
   const IndexedSurface box = Cuboid({ 5, 5, 5 }, { 35, 35, 35 });
   const IndexedSurface inner = Cuboid({ 12, 12, 12 }, { 28, 28, 28 });
@@ -140,7 +140,7 @@ TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
   EXPECT_EQ(ErrorMessageOf(hollow), "") << "a cavity, and a body in it";
 }
 
-TEST(LatticeSurface, IsLegalForAnyLattice)
+TEST(LatticeSurface, IsValidForAnyLattice)
 {
   const IndexedSurface given = Cylinder(9, 14, 50);
   const SurfaceFeatures requested = ComputeFeatures(given);

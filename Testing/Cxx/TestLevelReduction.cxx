@@ -52,7 +52,7 @@ using Scalars = ::testing::Types<char, signed char, unsigned char, short, unsign
   unsigned int, long, unsigned long, long long, unsigned long long, float, double>;
 TYPED_TEST_SUITE(LevelReductionOf, Scalars, ); // C++17 wants the comma
 
-TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
+TYPED_TEST(LevelReductionOf, AgreesWithDoubleForAnyWidth)
 {
   using Real = typename RealOf<TypeParam>::Type;
   const bool isDouble = std::is_same<TypeParam, double>::value;
@@ -73,7 +73,7 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
   }
 }
 
-TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
+TEST(ValidReduction, IsNanWhereHalfOfWeightIsInvalid)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
   Executor executor;

@@ -88,7 +88,7 @@ TEST_P(FilterLocale, SettingsOutOfRange)
   this->ExpectError("Tension Weight is 1e+300, it must lie in [0, 1000000]");
 }
 
-TEST_P(FilterLocale, PlacesOutsideTheImage)
+TEST_P(FilterLocale, PositionsOutsideImage)
 {
   const auto seeds = PointsAt({ { 20, 20, 1234.5 } });
   this->Filter->SetInitializationToSeeds();

@@ -87,7 +87,7 @@ double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
 }
 }
 
-TEST(MissedParts, EnclosesObjectOutsideTheSurfaceAndBackgroundInside)
+TEST(MissedParts, EnclosesMissedObjectsAndCavities)
 {
   const KnownBall known;
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
@@ -108,7 +108,7 @@ TEST(MissedParts, EnclosesObjectOutsideTheSurfaceAndBackgroundInside)
   }
 }
 
-TEST(MissedParts, LeavesPartsUnderTheMinimumSize)
+TEST(MissedParts, IgnoresPartsBelowMinimumSize)
 {
   const KnownBall known;
   // A ball of radius 4 has 257 voxels.
@@ -121,7 +121,7 @@ TEST(MissedParts, LeavesPartsUnderTheMinimumSize)
   EXPECT_TRUE(none.Surface.Triangles.empty());
 }
 
-TEST(MissedParts, WhatLiesAtTheSurfaceIsNotLost)
+TEST(MissedParts, IgnoresVoxelsAtSurface)
 {
   // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
   for (const double radius : { 11.8, 14.2 })
@@ -134,7 +134,7 @@ TEST(MissedParts, WhatLiesAtTheSurfaceIsNotLost)
   }
 }
 
-TEST(MissedParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
+TEST(MissedParts, RecoverySurfacesOfNoiseAreValid)
 {
   std::mt19937 random(3);
   for (int round = 0; round < 6; ++round)
@@ -171,7 +171,7 @@ TEST(MissedParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
   }
 }
 
-TEST(MissedParts, BoundaryIsMissedWhereNoVertexIsNear)
+TEST(MissedParts, BoundaryWithoutNearbyVertexIsMissed)
 {
   KnownBall known;
   const RecoverySurfaces cover = known.Find(PartKind::Object, 20);

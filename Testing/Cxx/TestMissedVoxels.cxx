@@ -115,7 +115,7 @@ Parts PartsOf(const MissedVoxels& missed)
 }
 }
 
-TEST(MissedVoxels, AreThoseOfTheWholeImageInTheSameParts)
+TEST(MissedVoxels, EqualVoxelsAndPartsOfWholeImage)
 {
   SurfaceState state;
   Fill(state);
@@ -143,7 +143,7 @@ TEST(MissedVoxels, AreThoseOfTheWholeImageInTheSameParts)
   }
 }
 
-TEST(MissedVoxels, FormPartsThroughOtherSlabs)
+TEST(MissedVoxels, AreConnectedAcrossSlabs)
 {
   // A comb: its teeth begin in the first layers and meet in the last.
   const TestVolume volume = MakeVolume(Size,

@@ -7,7 +7,7 @@
 
 using namespace volumic;
 
-TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
+TEST(Motion, ReachesTerminalSpeed)
 {
   for (const double friction : { 1.5, 3., 8. })
   {
@@ -27,7 +27,7 @@ TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
   }
 }
 
-TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
+TEST(Motion, RespectsMaximumStep)
 {
   // Contacts may have made it faster than what the step was chosen for.
   for (const double largest : { 0.5, 0.2 })
@@ -74,7 +74,7 @@ struct Shaken : Stage
 };
 }
 
-TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
+TEST(Smoothing, MovesTangentiallyToBarycentre)
 {
   Shaken stage;
   stage.Relax(false);

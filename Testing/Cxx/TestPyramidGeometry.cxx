@@ -15,7 +15,7 @@ TEST(PyramidGeometry, SizesFollowEquation4)
   EXPECT_EQ(levels[3].Size, (LevelSize{ 48, 48, 12 }));
 }
 
-TEST(PyramidGeometry, AutomaticStopsBeforeALevelUnderTheMinimumSize)
+TEST(PyramidGeometry, AutomaticLevelsRespectMinimumSize)
 {
   PyramidOptions options;
   options.MinimumLevelSize = 22;
@@ -24,7 +24,7 @@ TEST(PyramidGeometry, AutomaticStopsBeforeALevelUnderTheMinimumSize)
   EXPECT_EQ(PlanPyramid({ 256, 256, 68 }, { 1, 1, 1 }, options).size(), 2u);
 }
 
-TEST(PyramidGeometry, SizesBeyond32BitsWorkAsNumbersDo)
+TEST(PyramidGeometry, SupportsSizesBeyond32Bits)
 {
   const auto levels = PlanPyramid({ 2000000, 3000, 4000 }, { 1, 1, 1 }, {});
   EXPECT_EQ(levels[0].NumberOfVoxels(), 24000000000000LL);
@@ -32,7 +32,7 @@ TEST(PyramidGeometry, SizesBeyond32BitsWorkAsNumbersDo)
   EXPECT_EQ(levels[1].NumberOfVoxels(), 1154700LL * 1732 * 2309);
 }
 
-TEST(PyramidGeometry, RefusesWhatMakesNoPyramid)
+TEST(PyramidGeometry, RejectsInvalidOptions)
 {
   struct Case
   {

@@ -67,7 +67,7 @@ class RealScans : public ::testing::TestWithParam<Scan>
 };
 }
 
-TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
+TEST_P(RealScans, GiveValidSurfacesAtAllLevels)
 {
   const Scan& scan = GetParam();
   const vtkSmartPointer<vtkImageData> image = Read(scan.File);

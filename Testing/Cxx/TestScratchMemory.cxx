@@ -29,7 +29,7 @@ bool IsIn(const TemporaryFolder& folder, const LargeVector<char>& array)
 }
 }
 
-TEST(ScratchMemory, PutsLargeArraysIntoFilesWithoutAName)
+TEST(ScratchMemory, StoresLargeArraysInUnnamedFiles)
 {
   const TemporaryFolder folder;
   const TemporaryFolder other;
@@ -58,7 +58,7 @@ TEST(ScratchMemory, PutsLargeArraysIntoFilesWithoutAName)
   EXPECT_EQ(copy, large);
 }
 
-TEST(ScratchMemory, ReservesSpaceOnTheDisk)
+TEST(ScratchMemory, ReservesDiskSpace)
 {
   const TemporaryFolder folder;
   const ScratchMemory scratch(folder.Path());
@@ -83,7 +83,7 @@ TEST(ScratchMemory, ReservesSpaceOnTheDisk)
   EXPECT_EQ(allocate(2 * n), "");
 }
 
-TEST(ScratchMemory, MakesRoomBeforehand)
+TEST(ScratchMemory, ReservesCapacity)
 {
   LargeVector<Vector> values;
   MakeRoom(values, n);

@@ -41,7 +41,7 @@ void ExpectSound(const TestEvolution& evolution)
 }
 }
 
-TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
+TEST(SurfaceEvolution, IsValidInLongBox)
 {
   // Voxels of 1 : 7.5 and noise. The icosahedron that was pressed onto this box intersected itself
   // after an iteration.
@@ -62,7 +62,7 @@ TEST(SurfaceEvolution, StartsFromALongBoxWithoutIntersections)
   ExpectSound(evolution);
 }
 
-TEST(SurfaceEvolution, IsSoundAfterEverySweep)
+TEST(SurfaceEvolution, IsValidAfterEachSweep)
 {
   const TestVolume volume = NoisyTorus(36);
   TestEvolution evolution(IsoHalf(), Threads, Silent);
@@ -81,7 +81,7 @@ TEST(SurfaceEvolution, IsSoundAfterEverySweep)
   EXPECT_EQ(features.Components[0].Genus, 1);
 }
 
-TEST(SurfaceEvolution, KeepsItsTopologyOnRequest)
+TEST(SurfaceEvolution, PreservesTopologyOnRequest)
 {
   // Two balls: without cuts the enclosing surface stays one component.
   const TestVolume volume = MakeVolume(36, [](double x, double y, double z)

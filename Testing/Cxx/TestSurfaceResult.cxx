@@ -20,7 +20,7 @@ double MeanResidual(const SurfaceResult& surface)
 }
 }
 
-TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
+TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
 {
   const TestVolume volume = BallVolume(28, 8);
   double residual[2] = { 0, 0 };
@@ -42,7 +42,7 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
   EXPECT_GT(residual[false], 2 * residual[true]);
 }
 
-TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
+TEST(SurfaceResult, LiesOnGivenEdges)
 {
   // The edge is half a voxel inside the isopotential: not to be left for it at the end.
   TestVolume volume = BallVolume(28, 8);
@@ -67,7 +67,7 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   EXPECT_NEAR(radius, 7, 0.08);
 }
 
-TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
+TEST(SurfaceStart, SeedsHaveRequestedRadiusWithLowerBound)
 {
   const TestVolume volume = BallVolume(40, 16);
   for (const double radius : { 0., 0.1, 2., 5. })
@@ -85,7 +85,7 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
   }
 }
 
-TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
+TEST(SurfaceEvolutionInvalid, RejectsOptionsOutOfRange)
 {
   struct Case
   {

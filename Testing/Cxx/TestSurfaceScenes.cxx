@@ -91,7 +91,7 @@ class SurfaceOfScene : public ::testing::TestWithParam<std::tuple<SceneKind, Way
 };
 }
 
-TEST_P(SurfaceOfScene, HasItsTopologyAndKeepsTheInvariants)
+TEST_P(SurfaceOfScene, HasCorrectTopologyAndIsValid)
 {
   const auto& [kind, way] = GetParam();
   SceneOptions options;
@@ -121,7 +121,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SurfaceOfScene,
   [](const ::testing::TestParamInfo<std::tuple<SceneKind, Way>>& info)
   { return SceneName(std::get<0>(info.param)) + std::get<1>(info.param).Name; });
 
-TEST(SurfaceScenes, SeedsMergeToOneSurface)
+TEST(SurfaceScenes, SeedsMergeIntoOneSurface)
 {
   for (const SceneKind kind : { SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles })
   {
@@ -139,7 +139,7 @@ TEST(SurfaceScenes, SeedsMergeToOneSurface)
   }
 }
 
-TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
+TEST(SurfaceScenes, SnapshotsAreValid)
 {
   for (const SceneKind kind :
     { SceneKind::Torus, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles })
@@ -174,7 +174,7 @@ TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
   }
 }
 
-TEST(SurfaceScenes, TheJudgeSeesHolesAndIntersections)
+TEST(SurfaceScenes, JudgeDetectsHolesAndIntersections)
 {
   TriangleSurface surface;
   surface.Points = { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 } };

@@ -31,7 +31,7 @@ bool IsIn(int x, int low, int high)
 }
 }
 
-TEST(ThickPart, HasAsManyVoxelsAsItsLargestPart)
+TEST(ThickPart, HasSizeOfLargestThickPart)
 {
   struct Case
   {

@@ -51,7 +51,7 @@ SurfaceOptions TwentyIterations()
 }
 }
 
-TEST(Verification, FindsSheetsThatFaceTheSameWay)
+TEST(Verification, DetectsIntersectionsOfParallelSheets)
 {
   // The second ball is moved by less than an edge: nowhere are normals opposed that are near.
   Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
@@ -68,7 +68,7 @@ TEST(Verification, FindsSheetsThatFaceTheSameWay)
   EXPECT_GT(CountIn(bench), 0u);
 }
 
-TEST(Verification, AgreesWithTheTreeOfTriangles)
+TEST(Verification, AgreesWithTriangleTree)
 {
   // From places where nothing intersects to such where much does.
   std::mt19937 engine(27);
@@ -92,7 +92,7 @@ TEST(Verification, AgreesWithTheTreeOfTriangles)
   EXPECT_LT(intersecting, 50);
 }
 
-TEST(Verification, TheEndOfALevelIsMended)
+TEST(Verification, RepairsSurfaceOfLevel)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
@@ -129,7 +129,7 @@ TEST(Verification, TheEndOfALevelIsMended)
   }
 }
 
-TEST(Verification, NoSnapshotIntersectsItself)
+TEST(Verification, OmitsIntersectingSnapshots)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
@@ -150,7 +150,7 @@ TEST(Verification, NoSnapshotIntersectsItself)
   EXPECT_EQ(points.back(), 0u) << "it is left out";
 }
 
-TEST(Verification, WhatCannotBeMendedIsTold)
+TEST(Verification, ReportsUnrepairableSurface)
 {
   const TestVolume volume = BallVolume(32, 10);
   Intruder intruder;

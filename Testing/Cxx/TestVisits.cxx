@@ -72,7 +72,7 @@ void ExpectSound(const SweptRun& run)
 }
 }
 
-TEST(Passes, MakeTheSurfaceOfOneBlock)
+TEST(Passes, GiveSameSurfaceForAnyBlockSize)
 {
   Executor thread;
   Monitor monitor;
@@ -100,7 +100,7 @@ TEST(Passes, MakeTheSurfaceOfOneBlock)
   }
 }
 
-TEST(Passes, MakeTheSameRunOnThreadsThatAreHeldUp)
+TEST(Passes, AreIndependentOfThreadTiming)
 {
   // It does all that there is to do: merges, cuts, splits, collapses, lost parts and cavities.
   const auto made = [](Executor& executor)
@@ -191,7 +191,7 @@ struct Wilderness
 };
 }
 
-TEST(Passes, WriteNowhereElseHoweverManyIterationsTheyMake)
+TEST(Passes, WriteOnlyInBlock)
 {
   Wilderness before;
   Wilderness after;
@@ -233,7 +233,7 @@ TEST(Passes, WriteNowhereElseHoweverManyIterationsTheyMake)
   EXPECT_EQ(CountSelfIntersections(after.State.Mesh.ToIndexed()), 0);
 }
 
-TEST(Passes, DependOnNothingFarAway)
+TEST(Passes, DependOnlyOnHalo)
 {
   Wilderness one;
   Wilderness other;

@@ -55,7 +55,7 @@ using VoxelTypes = testing::Types<char, signed char, unsigned char, short, unsig
 TYPED_TEST_SUITE(VoxelValuesOfType, VoxelTypes);
 }
 
-TYPED_TEST(VoxelValuesOfType, AreTheBitsOfAConversion)
+TYPED_TEST(VoxelValuesOfType, EqualConvertedVoxels)
 {
   using T = TypeParam;
   // Of 8 and 16 bits all numbers; of floats the difference is taken in double.

@@ -19,7 +19,7 @@ inline const tbb::global_control ManyThreads(tbb::global_control::max_allowed_pa
 
 /** Waits for something that is sure to come; @return whether it has, on a machine however slow. */
 template <typename Condition>
-bool HasReachedEnd(const Condition& condition)
+bool WaitFor(const Condition& condition)
 {
   const auto start = std::chrono::steady_clock::now();
   while (!condition())

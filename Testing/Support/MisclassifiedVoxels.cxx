@@ -70,7 +70,7 @@ std::vector<char> EnclosedVoxels(const TriangleSurface& surface, const std::arra
   return enclosed;
 }
 
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
+double MisclassifiedFraction(const TriangleSurface& surface, const Scene& scene)
 {
   const std::vector<char> enclosed = EnclosedVoxels(surface, scene.Size);
   std::size_t wrong = 0;

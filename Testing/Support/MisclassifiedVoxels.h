@@ -22,7 +22,7 @@ std::vector<char> EnclosedVoxels(const TriangleSurface& surface, const std::arra
  * Voxels that are on the wrong side of a closed surface, as a share of the object's. The surface
  * is in index coordinates.
  */
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene);
+double MisclassifiedFraction(const TriangleSurface& surface, const Scene& scene);
 
 } // namespace volumic::support
 
