@@ -69,6 +69,6 @@ TEST(EdgeLengthPlan, SelectsNearestLevelOfPyramid)
   plan = PlanEdgeLength(MeanEdgeInDelta * 0.5, units, preferences);
   EXPECT_EQ(plan.FinestLevel, -1);
   EXPECT_NEAR(plan.SamplingRatio / plan.ReductionFactor, 0.5, 1e-9);
-  // Levels 0 and 1 leave 1 to 1.2 out.
+  // Ratios from 1 to 1.2 are not covered by levels 0 and 1.
   EXPECT_THROW(PlanEdgeLength(MeanEdgeInDelta * 1.1, units, preferences), std::invalid_argument);
 }

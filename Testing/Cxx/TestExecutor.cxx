@@ -129,22 +129,22 @@ TEST(CancellableExecutor, CancelsOnTheCallingThread)
   {
     Executor threads(number);
     const std::thread::id caller = std::this_thread::get_id();
-    int asked = 0;
-    CancellableExecutor asking(threads,
+    int queries = 0;
+    CancellableExecutor cancellable(threads,
       [&]
       {
         EXPECT_EQ(std::this_thread::get_id(), caller);
-        return ++asked < 3;
+        return ++queries < 3;
       });
-    constexpr int n = 100000; // More than can be done in a test.
+    constexpr int n = 100000; // more than a test can complete
     std::atomic<int> done{ 0 };
     const auto body = [&](std::size_t begin, std::size_t end)
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       done += int(end - begin);
     };
-    EXPECT_THROW(asking.For(n, 1, body), OperationCancelled);
-    EXPECT_EQ(asked, 3);
+    EXPECT_THROW(cancellable.For(n, 1, body), OperationCancelled);
+    EXPECT_EQ(queries, 3);
     EXPECT_GE(done, 3);
     EXPECT_LT(done, n);
   }

@@ -45,7 +45,7 @@ struct MisclassifiedVoxelVerdict
   std::size_t Inside = 0;  ///< enclosed voxels of other labels
   std::size_t Label = 0;   ///< all voxels of the label
 
-  std::size_t Wrong() const { return this->Outside + this->Inside; }
+  std::size_t Misclassified() const { return this->Outside + this->Inside; }
 };
 
 /** Count misclassified voxels. The surface is in world coordinates. */
