@@ -66,17 +66,17 @@ public:
     };
   }
 
-  LevelTask Task; ///< for the next levels
-  ConvergedSurface Rest;
+  LevelTask Task;             ///< for the next levels
+  ConvergedSurface Converged; ///< result of the previous level
   std::function<void()> AfterSweep;
-  std::unique_ptr<Evolution> Now; ///< on the current level
+  std::unique_ptr<Evolution> Current;
 
   void StartEnclosing(const LevelImage& image, int level) { this->Start(image, level, {}); }
   /** @return number of seeds */
   int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& seeds)
   {
     this->Start(image, level, { SurfaceStart::Kind::Seeds, seeds, {} });
-    return this->Now->Components.NumberOfComponents();
+    return this->Current->Components.NumberOfComponents();
   }
   void StartSurface(const LevelImage& image, int level, const IndexedSurface& surface)
   {
@@ -85,7 +85,7 @@ public:
   void StartIsoSurface(const LevelImage& image, int level)
   {
     this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, {} });
-    LabelComponents(*this->Now);
+    LabelComponents(*this->Current);
   }
   /** @return false if cancelled; the evolution then stays on the coarser level */
   bool Divide(const LevelImage& image, int level)
@@ -93,25 +93,25 @@ public:
     this->Leave();
     return this->Enter(image, level, nullptr);
   }
-  StopReason Run() { return RunLevel(*this->Now); }
+  StopReason Run() { return RunLevel(*this->Current); }
   void Leave()
   {
-    if (this->Now)
+    if (this->Current)
     {
-      ForgetBlocks(*this->Now);
-      this->Rest.Mesh = std::move(this->Now->State.Mesh);
-      this->Rest.Level = this->Now->Task.Level;
-      this->Rest.Delta = this->Now->State.Sizing.OfLevel();
-      this->Rest.Unchecked = this->Now->Unchecked;
+      ForgetBlocks(*this->Current);
+      this->Converged.Mesh = std::move(this->Current->State.Mesh);
+      this->Converged.Level = this->Current->Task.Level;
+      this->Converged.Delta = this->Current->State.Sizing.OfLevel();
+      this->Converged.Unchecked = this->Current->Unchecked;
     }
   }
 
-  SurfaceResult Result() const { return this->Now->Result(); }
-  const std::vector<HistoryRow>& History() const { return this->Rest.History.Rows; }
-  int Iterations() const { return this->Rest.History.Iterations(); }
-  MissedParts Missed() const { return this->Now->Missed; }
-  Verdict Verified() const { return this->Now->Verified; }
-  bool IsStopped() const { return this->Now->Stopped; }
+  SurfaceResult Result() const { return this->Current->Result(); }
+  const std::vector<HistoryRow>& History() const { return this->Converged.History.Rows; }
+  int Iterations() const { return this->Converged.History.Iterations(); }
+  MissedParts Missed() const { return this->Current->Missed; }
+  Verdict Verified() const { return this->Current->Verified; }
+  bool IsStopped() const { return this->Current->Stopped; }
 
 private:
   void Start(const LevelImage& image, int level, const SurfaceStart& start)
@@ -123,14 +123,15 @@ private:
     this->Task.Image = image;
     this->Task.Level = level;
     this->Task.Start = start;
-    auto before = std::exchange(this->Now,
-      std::make_unique<Evolution>(this->Task, this->Rest.History, this->Executing, this->Listener));
-    const bool hasReached = ReachLevel(*this->Now, this->Rest);
+    auto before = std::exchange(this->Current,
+      std::make_unique<Evolution>(
+        this->Task, this->Converged.History, this->Executing, this->Listener));
+    const bool hasReached = ReachLevel(*this->Current, this->Converged);
     if (!hasReached)
     {
-      before->State.Mesh = std::move(this->Rest.Mesh);
+      before->State.Mesh = std::move(this->Converged.Mesh);
       before->Stopped = true;
-      this->Now = std::move(before);
+      this->Current = std::move(before);
     }
     return hasReached;
   }

@@ -99,15 +99,15 @@ TEST(EvolutionHistory, SecondsAddUpToElapsedTime)
   const auto start = steady_clock::now() - std::chrono::seconds(1000);
   const auto elapsed = [start]
   { return std::chrono::duration<double>(steady_clock::now() - start).count(); };
-  evolution.Rest.History.StartClock(start);
+  evolution.Converged.History.StartClock(start);
   evolution.StartEnclosing(scene.Coarse.Image, 1);
   evolution.Run();
-  evolution.Rest.History.EndLevel();
+  evolution.Converged.History.EndLevel();
   const double coarse = elapsed();
   evolution.Divide(scene.Fine.Image, 0);
   evolution.Run();
   const double most = elapsed();
-  evolution.Rest.History.EndLevel();
+  evolution.Converged.History.EndLevel();
   const double all = elapsed();
   double sums[2] = { 0., 0. };
   for (const HistoryRow& row : evolution.History())

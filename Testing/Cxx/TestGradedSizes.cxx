@@ -114,8 +114,8 @@ Outside OutsideBlurredPlate(double thickness)
 /** Surfaces of two levels with a factor of sqrt 3, on the same voxels. */
 struct TwoLevels
 {
-  SurfaceResult Divided; ///< at the start of the finer level
-  SurfaceResult AtRest;  ///< converged
+  SurfaceResult Divided;   ///< at the start of the finer level
+  SurfaceResult Converged; ///< at its end
   MissedParts Missed;
 };
 TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, double fineUnit = 1.)
@@ -136,7 +136,7 @@ TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, dou
   const StopReason reason = evolution.Run();
   EXPECT_TRUE(reason == StopReason::Converged || reason == StopReason::LimitCycle);
   EXPECT_EQ(evolution.Verified().Found, 0);
-  result.AtRest = evolution.Result();
+  result.Converged = evolution.Result();
   result.Missed = evolution.Missed();
   return result;
 }
@@ -220,14 +220,14 @@ TEST(LocalDivision, DividesOnlyWhereToleranceRequires)
     << "not divided";
   constexpr double tolerance = 0.25;
   const TwoLevels some = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(tolerance));
-  ExpectLegal(some.AtRest);
+  ExpectLegal(some.Converged);
   EXPECT_GT(some.Divided.Points.size(), 1.03 * coarse.Points.size());
   EXPECT_LT(some.Divided.Points.size(), 2 * coarse.Points.size());
   const SurfaceResult whole = SurfaceOf(OutsideBoxAndBall, Within(tolerance));
   EXPECT_GT(
-    some.AtRest.FitToTolerance->WithinTolerance, whole.FitToTolerance->WithinTolerance - 0.005);
-  EXPECT_LT(some.AtRest.Points.size(), 1.1 * whole.Points.size());
-  EXPECT_NEAR(ComputeFeatures(some.AtRest).Volume, ComputeFeatures(whole).Volume,
+    some.Converged.FitToTolerance->WithinTolerance, whole.FitToTolerance->WithinTolerance - 0.005);
+  EXPECT_LT(some.Converged.Points.size(), 1.1 * whole.Points.size());
+  EXPECT_NEAR(ComputeFeatures(some.Converged).Volume, ComputeFeatures(whole).Volume,
     0.002 * ComputeFeatures(whole).Volume);
 }
 
@@ -235,15 +235,15 @@ TEST(LocalDivision, DividesEverywhereForSmallTolerance)
 {
   const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
   EXPECT_TRUE(all.Divided.Size.empty()) << "uniform until convergence";
-  ExpectLegal(all.AtRest);
+  ExpectLegal(all.Converged);
 }
 
 TEST(LocalDivision, PreservesObliquePlate)
 {
   const TwoLevels levels =
     SurfaceOfTwoLevels(OutsideBlurredPlate(1.), ThinParts(), 1. / std::sqrt(3.));
-  ExpectLegal(levels.AtRest);
-  const SurfaceFeatures features = ComputeFeatures(levels.AtRest);
+  ExpectLegal(levels.Converged);
+  const SurfaceFeatures features = ComputeFeatures(levels.Converged);
   EXPECT_EQ(features.Components.size(), 1u);
   EXPECT_EQ(features.Genus, 0);
   EXPECT_EQ(levels.Missed.MissingBoundary, 0.);

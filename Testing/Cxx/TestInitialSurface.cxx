@@ -99,7 +99,7 @@ TEST(InitialSurface, IsosurfaceHasSmallestParts)
     });
   TestEvolution evolution(SurfaceOptions(), Threads, Silent);
   evolution.StartIsoSurface(volume.Image, 0);
-  EXPECT_EQ(evolution.Now->Components.NumberOfComponents(), 2);
+  EXPECT_EQ(evolution.Current->Components.NumberOfComponents(), 2);
   const TestVolume nothing = MakeVolume(16, [](double, double, double) { return -1.; });
   EXPECT_THROW(evolution.StartIsoSurface(nothing.Image, 0), std::invalid_argument);
 }

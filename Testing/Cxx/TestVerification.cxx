@@ -111,7 +111,7 @@ TEST(Verification, RepairsSurfaceOfLevel)
       monitor.HasPierced = evolution.Iterations() == 20;
       if (monitor.HasPierced)
       {
-        Pierce(evolution.Now->State);
+        Pierce(evolution.Current->State);
       }
     };
     evolution.StartEnclosing(volume.Image, 0);
@@ -140,7 +140,7 @@ TEST(Verification, OmitsIntersectingSnapshots)
   {
     if (iteration == 20)
     {
-      Pierce(evolution.Now->State);
+      Pierce(evolution.Current->State);
     }
     points.push_back(take().Points.size());
   };
@@ -160,7 +160,7 @@ TEST(Verification, ReportsUnrepairableSurface)
   evolution.AfterSweep = [&]
   {
     monitor.HasPierced = true;
-    SurfaceState& state = evolution.Now->State;
+    SurfaceState& state = evolution.Current->State;
     for (int v = 0; v < state.Mesh.Size(); ++v)
     {
       if (state.Mesh.IsAlive(v))
