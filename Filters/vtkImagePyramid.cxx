@@ -38,7 +38,7 @@
 vtkStandardNewMacro(vtkImagePyramid);
 
 //------------------------------------------------------------------------------
-/** What the filter holds beside what all algorithms do. */
+/** Members of vtkImagePyramid. */
 class vtkImagePyramid::vtkInternals
 {
 public:
@@ -69,9 +69,9 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 }
 
 //------------------------------------------------------------------------------
-VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_MEMORY_LIMIT_WARNING)
 
-// The properties, a line each: name, type for Set and Get, and where vtkInternals has it.
+// The properties: name, type of Set and Get, member of vtkInternals.
 #define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                  \
   MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor) \
   MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)      \
@@ -104,7 +104,7 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
 vtkTypeBool vtkImagePyramid::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // vtkImageAlgorithm knows images only and leaves this request to others.
+  // vtkImageAlgorithm does not handle this request.
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
     return this->RequestDataObject(output);
@@ -125,7 +125,7 @@ int vtkImagePyramid::RequestDataObject(vtkInformationVector* output)
 
 int vtkImagePyramid::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -139,7 +139,7 @@ int vtkImagePyramid::FillOutputPortInformation(int, vtkInformation* info)
 int vtkImagePyramid::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  // What the executive copied from the input speaks of an image: blocks have no whole extent.
+  // The executive has copied this information from the input. Blocks have no whole extent.
   vtkInformation* info = output->GetInformationObject(0);
   info->Remove(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   info->Remove(vtkDataObject::ORIGIN());
@@ -164,7 +164,8 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
     volumic::SelectComponent(volumic::ChooseArray(this->GetInputArrayInformation(0), image),
       this->Internals->SelectedComponent);
   return volumic::MakeImageLevels(image, voxels, this->Internals->Options,
-    [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
+    [&observer](double fraction, const std::string& text)
+    { return observer.ReportProgress(fraction, text); });
 }
 
 //------------------------------------------------------------------------------
@@ -193,8 +194,8 @@ int vtkImagePyramid::RequestData(
     this, outputVector, "Input port 0: ",
     [&]
     {
-      return volumic::Join("the memory does not suffice for the pyramid of an image of ",
-        image ? volumic::SizeOf(image) : "?", " voxels.");
+      return volumic::Join("not enough memory for the pyramid of an image of ",
+        image ? volumic::SizeOf(image) : "?", " voxels. Set Scratch Directory, or crop the image.");
     },
     [&]
     {
@@ -202,9 +203,9 @@ int vtkImagePyramid::RequestData(
       const volumic::ImageLevels levels =
         this->MakeLevels(volumic::WholeInput(inputVector[0]), image, observer);
       vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(volumic::BlocksOf(levels));
-      if (!levels.AboutNaNs.empty())
+      if (!levels.NaNWarning.empty())
       {
-        observer.Warn("Input port 0: " + levels.AboutNaNs);
+        observer.Warn("Input port 0: " + levels.NaNWarning);
       }
     }));
   if (this->GetErrorCode() != vtkErrorCode::NoError &&
@@ -230,6 +231,6 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
-// Files may be compiled together.
+// The source files may be compiled as one (UNITY_BUILD).
 #undef VolumicSetting
 #undef VolumicPrint

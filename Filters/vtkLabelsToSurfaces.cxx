@@ -57,7 +57,7 @@ public:
   volumic::LabelNames Names;
   bool IsRunning = false;
 
-  /** Choose the labels, and check the properties. Errors are thrown. */
+  /** Choose the labels, and check the properties. Throw an exception on error. */
   volumic::LabelChoice Read(vtkDataObject* input, vtkInformation* selection,
     std::optional<volumic::LabelImage>& image, volumic::HostThreads& threads) const;
 };
@@ -73,8 +73,8 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
 
 //------------------------------------------------------------------------------
-// The properties, a line each: name, type for Set and Get, where vtkInternals has it. Set, Get
-// and PrintSelf() are made of them.
+// The properties: name, type of Set and Get, member of vtkInternals. Set, Get and PrintSelf() are
+// generated from them.
 #define VOLUMIC_LABEL_PROPERTIES(MADE)                                  \
   MADE(BackgroundLabel, int, BackgroundLabel)                           \
   MADE(Merge, bool, Merge)                                              \
@@ -98,7 +98,7 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting)
 
-VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_MEMORY_LIMIT_WARNING)
 
 //------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::AddLabel(int label)
@@ -175,7 +175,7 @@ void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
 //------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -195,7 +195,7 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // Of the voxels all processes make the names of the blocks.
+  // All processes need the voxels for the names of the blocks.
   volumic::RequestInputs(this, request, input, output, true);
   return 1;
 }
@@ -229,15 +229,15 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   auto* interfaces = vtkPolyData::GetData(outputs, 1);
   const vtkInternals& internals = *this->Internals;
   const volumic::ScratchMemory scratch(internals.ScratchDirectory);
-  observer.GoOn(0.0, "Reading the labels");
+  observer.ReportProgress(0.0, "Reading the labels");
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
   const volumic::LabelChoice choice =
     internals.Read(input, this->GetInputArrayInformation(0), image, threads);
-  const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
-  if (!aboutScans.empty()) // Now: the mesh may take very long.
+  const std::string scanWarning = image->ScanWarning(internals.BackgroundLabel);
+  if (!scanWarning.empty()) // Report it before meshing, which may take very long.
   {
-    vtkWarningMacro("Input port 0: " << aboutScans);
+    vtkWarningMacro("Input port 0: " << scanWarning);
   }
   std::vector<int> objects;
   volumic::LabelMap map =
@@ -245,7 +245,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,
-    [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
+    [&observer](double fraction, const std::string& text)
+    { return observer.ReportProgress(fraction, text); });
   interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
   volumic::AddLabelFields(choice, *image, interfaces);
   if (choice.IsMerged)
@@ -278,7 +279,7 @@ void vtkLabelsToSurfaces::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiB
   }
   catch (const std::exception&)
   {
-    output->Initialize(); // The first process reports it, and has no blocks either.
+    output->Initialize(); // The first process reports the error, and has no blocks either.
   }
 }
 
@@ -299,9 +300,8 @@ int vtkLabelsToSurfaces::RequestData(
     this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surfaces. Set Scratch Directory, "
-             "set "
-             "Finest Level to a coarser level, or choose fewer Labels.";
+      return "Input port 0: not enough memory for the surfaces. Set Scratch Directory, set Finest "
+             "Level to a coarser level, or crop the image.";
     },
     [&]
     {
@@ -341,6 +341,6 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
-// Files may be compiled together.
+// The source files may be compiled as one (UNITY_BUILD).
 #undef VolumicSetting
 #undef VolumicPrint

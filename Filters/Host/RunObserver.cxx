@@ -12,7 +12,7 @@ namespace volumic
 {
 namespace
 {
-/** Blocks from which on a sweep may take so long that one wants to know how far it is. */
+/** Sweeps of at least this number of blocks may take long, so progress names the block. */
 constexpr int ManyBlocks = 500;
 
 std::string BlocksOf(const Monitor::Status& status)
@@ -29,13 +29,13 @@ std::string TextOf(const Monitor::Status& status)
     case Monitor::Activity::Starting:
       return "start";
     case Monitor::Activity::Dividing:
-      return "division";
+      return "subdivision";
     case Monitor::Activity::Recovering:
-      return "search for lost parts";
+      return "recovery";
     case Monitor::Activity::Iterating:
       return Join("iteration ", status.Iteration, BlocksOf(status));
     default:
-      return "regularisation" + BlocksOf(status);
+      return "optimization" + BlocksOf(status);
   }
 }
 }
@@ -45,23 +45,23 @@ RunObserver::RunObserver(vtkAlgorithm* filter, double timeLimit, std::vector<std
 {
   if (!(timeLimit >= 0.0))
   {
-    ThrowInvalidArgument("Time Limit is ", timeLimit, "; it must be 0 (none) or more.");
+    ThrowInvalidArgument("Time Limit is ", timeLimit, ". Set it to 0 (none) or more seconds.");
   }
 }
 
-bool RunObserver::GoOn(double share, const std::string& text)
+bool RunObserver::ReportProgress(double fraction, const std::string& text)
 {
   this->Filter->SetProgressText(text.c_str());
-  this->Filter->UpdateProgress(share);
+  this->Filter->UpdateProgress(fraction);
   return !this->IsStopped();
 }
 
 bool RunObserver::IsStopped()
 {
   this->IsAborted = this->IsAborted || IsAbortRequested(this->Filter);
-  const std::chrono::duration<double> taken = Clock::now() - this->Started;
+  const std::chrono::duration<double> elapsed = Clock::now() - this->Started;
   this->IsOutOfTime = this->IsOutOfTime ||
-    (!this->IsAborted && this->TimeLimit > 0.0 && taken.count() >= this->TimeLimit);
+    (!this->IsAborted && this->TimeLimit > 0.0 && elapsed.count() >= this->TimeLimit);
   return this->IsAborted || this->IsOutOfTime;
 }
 
@@ -88,7 +88,7 @@ bool LevelMonitor::GoOn(const Status& status)
 
 bool LevelMonitor::BeginLevel(int level)
 {
-  // A user who stops at the name of a level expects the surface of that level.
+  // Name the finished level, as a user who cancels here gets its surface.
   return this->Report(level, 0.0,
     level == this->Coarsest ? Join("Level ", level, ", voxels")
                             : Join("Level ", level + 1, " is done"));
@@ -105,6 +105,6 @@ bool LevelMonitor::Report(int level, double fraction, const std::string& text)
     total += weight;
   }
   done += std::pow(3.0, this->Coarsest - level) * std::clamp(fraction, 0.0, 1.0);
-  return this->Observer.GoOn(this->Before + (1.0 - this->Before) * done / total, text);
+  return this->Observer.ReportProgress(this->Before + (1.0 - this->Before) * done / total, text);
 }
 }

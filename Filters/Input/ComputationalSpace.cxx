@@ -37,41 +37,41 @@ ComputationalSpace::ComputationalSpace(vtkImageData* level0, Metric metric)
   if (!std::isfinite(determinant) || determinant == 0.0)
   {
     ThrowInvalidArgument(
-      "spacing and direction of the image do not span a space; set the spacing to the "
-      "distances of the voxels.");
+      "the spacing of the image is zero or not finite, or its direction matrix is singular. Set "
+      "the spacing to the distances of the voxels.");
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;
   this->Origin = FirstVoxelOf(level0);
 }
 
-Point ComputationalSpace::ToWorld(const Point& place) const
+Point ComputationalSpace::ToWorld(const Point& position) const
 {
   Point world;
   for (int row = 0; row < 3; ++row)
   {
     const double* m = &this->Forward[3 * row];
-    world[row] = this->Origin[row] + m[0] * place[0] + m[1] * place[1] + m[2] * place[2];
+    world[row] = this->Origin[row] + m[0] * position[0] + m[1] * position[1] + m[2] * position[2];
   }
   return world;
 }
 
-Point ComputationalSpace::ToComputationalSpace(const Point& place) const
+Point ComputationalSpace::ToComputationalSpace(const Point& world) const
 {
-  const double d[3] = { place[0] - this->Origin[0], place[1] - this->Origin[1],
-    place[2] - this->Origin[2] };
-  Point inside;
+  const double d[3] = { world[0] - this->Origin[0], world[1] - this->Origin[1],
+    world[2] - this->Origin[2] };
+  Point position;
   for (int row = 0; row < 3; ++row)
   {
     const double* m = &this->Backward[3 * row];
-    inside[row] = m[0] * d[0] + m[1] * d[1] + m[2] * d[2];
+    position[row] = m[0] * d[0] + m[1] * d[1] + m[2] * d[2];
   }
-  return inside;
+  return position;
 }
 
 std::array<float, 3> ComputationalSpace::NormalToWorld(const std::array<float, 3>& normal) const
 {
-  // Normals go by the transposed inverse.
+  // Normals are transformed by the transposed inverse.
   double world[3];
   for (int column = 0; column < 3; ++column)
   {
@@ -85,7 +85,7 @@ std::array<float, 3> ComputationalSpace::NormalToWorld(const std::array<float, 3
 
 namespace
 {
-/** Points that one thread transforms at a time. */
+/** Points per task. */
 constexpr std::size_t PointSpan = 16384;
 
 template <typename Map>
@@ -114,12 +114,12 @@ IndexedSurface Transform(
 IndexedSurface ToWorld(IndexedSurface surface, const ComputationalSpace& space, Executor& executor)
 {
   return Transform(std::move(surface), space, executor,
-    [&space](const Point& place) { return space.ToWorld(place); });
+    [&space](const Point& position) { return space.ToWorld(position); });
 }
 
 IndexedSurface ToComputationalSpace(IndexedSurface surface, const ComputationalSpace& space)
 {
   return Transform(std::move(surface), space, OnThisThread(),
-    [&space](const Point& place) { return space.ToComputationalSpace(place); });
+    [&space](const Point& world) { return space.ToComputationalSpace(world); });
 }
 }

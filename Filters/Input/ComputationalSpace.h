@@ -12,19 +12,19 @@ class vtkImageData;
 
 namespace volumic
 {
-/** Which lengths the constraints of the surface speak of (section 5.2 of the paper). */
+/** Space in which the constraints on lengths hold (section 5.2 of the paper). */
 enum class Metric
 {
-  Voxels = 0, ///< An affine space in which voxels are cubes: the workspace is stretched.
-  World = 1   ///< World lengths: the workspace is the world, turned and scaled alike.
+  Voxels = 0, ///< affine space in which voxels are cubes
+  World = 1   ///< world space, rotated and scaled uniformly
 };
 
 /**
- * The way between world coordinates and the workspace, whose axes are those of the image, whose
- * origin is the first voxel, and in which the smallest voxel distance of level 0 is 1. By
- * Metric::Voxels the other distances are 1 as well, by Metric::World they keep their ratio. Origin,
- * spacing, direction and extent of the image all count. A direction matrix that is not orthonormal
- * (no format of files has one) shears World lengths, too.
+ * Transformation between world coordinates and the computational space. That space has the axes of
+ * the image and the first voxel as its origin. The smallest voxel spacing of level 0 is 1. The
+ * other spacings are 1 with Metric::Voxels, and keep their ratio with Metric::World. Origin,
+ * spacing, direction and extent of the image are applied. A direction matrix that is not
+ * orthonormal shears the lengths of Metric::World, too.
  */
 class ComputationalSpace
 {
@@ -33,26 +33,23 @@ public:
 
   /**
    * @param level0 the finest image
-   * @throws std::invalid_argument if its voxels do not span a space (zero spacing, singular
-   *         direction).
+   * @throws InvalidArgument for zero spacing or a singular direction matrix
    */
   ComputationalSpace(vtkImageData* level0, Metric metric);
 
-  Point ToWorld(const Point& place) const;
-  Point ToComputationalSpace(const Point& place) const;
+  Point ToWorld(const Point& position) const;
+  Point ToComputationalSpace(const Point& world) const;
 
-  /** A normal of a surface: it stays perpendicular to it, and outward. */
+  /** Return the unit normal in world coordinates, perpendicular to the surface and outward. */
   std::array<float, 3> NormalToWorld(const std::array<float, 3>& normal) const;
 
-  /** Whether a mirror is on the way, so that the orientation of triangles must be flipped. */
+  /** Return whether the transformation flips the orientation of triangles. */
   bool IsMirrored() const { return this->Mirrored; }
 
-  /**
-   * Smallest distance of two voxels of level 0, world units: what 1 stands for in the workspace.
-   */
+  /** Return length 1 of the computational space in world units: the smallest spacing of level 0. */
   double WorldUnit() const { return this->Unit; }
 
-  /** Distance of two voxels of level 0 along each axis of the image, workspace; at least 1. */
+  /** Return the voxel spacing of level 0 in computational space, at least 1. */
   const std::array<double, 3>& Step() const { return this->Steps; }
 
 private:
@@ -65,10 +62,9 @@ private:
   double Unit = 1;
 };
 
-/** The surface in world coordinates, outward oriented there; in its place if it is given up. */
+/** Transform a surface. It stays oriented outward. A moved surface is transformed in place. */
 IndexedSurface ToWorld(IndexedSurface surface, const ComputationalSpace& space, Executor& executor);
 
-/** The surface in the workspace, outward oriented there; in its place if it is given up. */
 IndexedSurface ToComputationalSpace(IndexedSurface surface, const ComputationalSpace& space);
 }
 

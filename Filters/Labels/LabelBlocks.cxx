@@ -24,11 +24,11 @@ namespace volumic
 {
 namespace
 {
-/** How many labels a warning names. */
-constexpr std::size_t MostNamed = 10;
+/** Maximum number of labels in a warning. */
+constexpr std::size_t MaximumNamed = 10;
 
-/** Share of missing voxels that is worth a warning; less is field data only. */
-constexpr double NotableShare = 0.05;
+/** Fraction of missing voxels above which there is a warning, not only field data. */
+constexpr double NotableFraction = 0.05;
 
 template <typename Array, typename Value>
 void AddField(
@@ -44,7 +44,7 @@ void AddField(
   surface->GetFieldData()->AddArray(array);
 }
 
-/** The labels of the triangles; of a merged surface the nearest one's. */
+/** Add the labels of the triangles: in a merged surface the nearest one. */
 void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const LabelImage& image)
 {
   vtkNew<vtkIntArray> array;
@@ -61,7 +61,7 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
-/** What each of the labels is called, and its colour. */
+/** Add the names and colors of labels. */
 void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
 {
   std::vector<std::string> texts;
@@ -76,7 +76,7 @@ void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelN
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
 }
 
-/** What surfaces lack of their labels. */
+/** Collects labels that are not represented well by their surfaces. */
 class Losses
 {
 public:
@@ -114,23 +114,23 @@ public:
     }
   }
 
-  /** Whether they are worth a warning. */
-  bool AreNotable() const { return this->Missing > NotableShare * this->Voxels; }
+  /** Return whether to warn. */
+  bool AreNotable() const { return this->Missing > NotableFraction * this->Voxels; }
 
   std::string Text() const
   {
     std::string text;
-    const auto add = [&](const char* what, const std::vector<std::string>& names)
+    const auto add = [&](const char* problem, const std::vector<std::string>& names)
     {
       if (!names.empty())
       {
-        text += Join(text.empty() ? "" : " ", what, Listed(names, MostNamed), this->Reasons());
+        text += Join(text.empty() ? "" : " ", problem, Listed(names, MaximumNamed), this->Advice());
       }
     };
-    add("No surface is left of ", this->Empty);
-    add("More voxels than half are on the wrong side of the surface of ", this->Missed);
-    add("The volume is not that of the voxels of ", this->WrongVolumes);
-    add("Parts have another volume than their voxels, of ", this->MisclassifiedParts);
+    add("These labels have no surface: ", this->Empty);
+    add("More than half of the voxels are misclassified for ", this->Missed);
+    add("The enclosed volume differs from the voxels for ", this->WrongVolumes);
+    add("The enclosed volume of parts differs from their voxels for ", this->MisclassifiedParts);
     return text;
   }
 
@@ -140,7 +140,7 @@ private:
     return this->Settings.FinestLevel > 0 || this->Settings.EdgeLength > 0.0;
   }
 
-  /** Whether the volume is off, and no setting brings that about. */
+  /** Return whether the volume is wrong, and no setting explains this. */
   bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels) const
   {
     constexpr vtkIdType least = 100;
@@ -149,14 +149,14 @@ private:
       this->Settings.KeepComponents == 0;
   }
 
-  /** Possible reasons, and the way out. */
-  std::string Reasons() const
+  /** Return possible reasons, and settings that help. */
+  std::string Advice() const
   {
-    return Join(": too small, scattered, or too thin for the triangles",
-      this->Settings.KeepComponents != 0 ? ", or left out by Keep Components." : ".",
+    return Join(". They are too small, scattered, or too thin for the triangles",
+      this->Settings.KeepComponents != 0 ? ", or removed by Keep Components." : ".",
       !this->HasLargeTriangles()         ? ""
-        : this->Settings.EdgeLength > 0. ? " A shorter Edge Length makes these smaller."
-                                         : " A lower Finest Level makes these smaller.");
+        : this->Settings.EdgeLength > 0. ? " Set a shorter Edge Length."
+                                         : " Set a lower Finest Level.");
   }
 
   const LabelSettings& Settings;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What LabelInterfaceMaker makes of its mesh: poly data in world coordinates.
+// The outputs of LabelInterfaceMaker: poly data in world coordinates.
 
 #include "Labels/LabelInterfaces.h"
 
@@ -70,7 +70,7 @@ float LabelInterfaceMaker::ResidualAt(int v, int object) const
   const int part = *std::find_if(
     objects.begin(), objects.end(), [&](int other) { return this->Map.Whole(other) == object; });
   const float own = this->Fields->ValueAt(part, position);
-  // Where there are only sides of the box beside it, it is where it should be.
+  // A vertex between an object and sides of the box has no residual.
   float others =
     objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
   for (const int other : objects)
@@ -263,7 +263,7 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   {
     if (this->IsShown(face))
     {
-      // The normal points away from what is selected.
+      // The normal points away from the selected object.
       const bool isTurned = this->SelectionOf(face.Behind) < 0;
       const int second = this->Space.IsMirrored() != isTurned ? 2 : 1;
       triangles->InsertNextCell(

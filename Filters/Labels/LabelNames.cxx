@@ -24,7 +24,7 @@ void CheckEntries(vtkAbstractArray* array, vtkIdType requested)
   if (array && array->GetNumberOfTuples() != requested)
   {
     ThrowInvalidArgument("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
-      " entries, 'LabelValues' has ", requested, "; they must have as many.");
+      " entries, but 'LabelValues' has ", requested, ". Provide an entry for each label.");
   }
 }
 }
@@ -46,7 +46,7 @@ LabelNames LabelNames::Of(vtkDataObject* image)
   if (colors && colors->GetNumberOfComponents() != 3)
   {
     ThrowInvalidArgument("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
-      " components; it needs 3: red, green, blue.");
+      " components. Provide 3: red, green, blue.");
   }
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -100,8 +100,8 @@ LabelNames::Color LabelNames::ColorOf(int label) const
   {
     return found->second;
   }
-  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4,
-  // and that those of maps with one object, 1 and 255, are light enough to show its relief.
+  // With these constants the first 30 labels differ by 17 (CIE 1976), and the first 120 by 7.4. The
+  // colors of maps with one object, 1 and 255, are light enough to show its relief.
   const auto spread = [label](double step) { return step * label - std::floor(step * label); };
   constexpr double goldenRatio = 0.6180339887498949;
   const double hue = std::fmod(0.68 + spread(goldenRatio), 1.0);

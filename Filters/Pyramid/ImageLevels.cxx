@@ -45,7 +45,7 @@ namespace
 template <typename Real>
 using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
 
-/** An array of n values in memory that may turn out not to be had, which is no reason to abort. */
+/** Return an array of n values. @throws std::runtime_error if memory does not suffice */
 template <typename Real>
 vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
 {
@@ -55,16 +55,13 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
   }
   catch (const std::bad_alloc&)
   {
-    throw std::runtime_error(Join("the memory does not suffice for level ", level, ", which takes ",
+    throw std::runtime_error(Join("not enough memory for level ", level, " (",
       static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Set Scratch Directory, ask for fewer levels, or crop the image."));
+      " MB). Set Scratch Directory, reduce Number Of Levels, or crop the image."));
   }
 }
 
-/**
- * The voxels that level 1 is made of: as double where they are integers that single precision would
- * not keep apart.
- */
+/** Return the voxels for level 1. Convert integers to double if float cannot distinguish them. */
 vtkSmartPointer<vtkDataArray> SourceVoxels(
   vtkDataArray* contiguous, const ValidVoxels& valid, Executor& executor)
 {
@@ -92,26 +89,25 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
   return wide;
 }
 
-/** Input voxels of each level that are looked at: what progress is measured by. */
-std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
+/** Return the fraction of the work before each level, measured in source voxels. */
+std::vector<double> FractionBefore(const std::vector<LevelGeometry>& levels)
 {
-  std::vector<double> share(levels.size(), 0.0);
+  std::vector<double> fraction(levels.size(), 0.0);
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
-    share[h] = share[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
+    fraction[h] = fraction[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
   }
-  const double total = share.back();
-  for (double& s : share)
+  const double total = fraction.back();
+  for (double& f : fraction)
   {
-    s = total > 0.0 ? s / total : 1.0;
+    f = total > 0.0 ? f / total : 1.0;
   }
-  return share;
+  return fraction;
 }
 
 /**
- * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
- * Where not all voxels of level 0 are valid, those of the other levels are NaN whose neighbourhood
- * has more voxels without a value than with one.
+ * Compute the voxels of the coarser levels, until `progress` returns false. A voxel is NaN if valid
+ * voxels have less than half of the weight in its neighborhood.
  * @param level0 contiguous voxels
  */
 template <typename T>
@@ -120,11 +116,11 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
   Executor& executor, const Progress& progress)
 {
   using Real = typename RealOf<T>::Type;
-  const std::vector<double> before = ShareDoneBefore(levels);
+  const std::vector<double> before = FractionBefore(levels);
   const auto reduce = [&](std::size_t h, const auto* below, const auto& marks, Real* made)
   {
     const std::string text = Join("Level ", h, " of ", levels.size() - 1);
-    const LevelProgress report = [&](double done)
+    const ProgressCallback report = [&](double done)
     { return progress(before[h - 1] + done * (before[h] - before[h - 1]), text); };
     if (!report(0.0))
     {
@@ -180,17 +176,17 @@ vtkSmartPointer<vtkImageData> MakeImage(
   return image;
 }
 
-/** U_h / U_0 of a block: what the pyramid wrote down, or else what the spacings tell. */
+/** Return U_h / U_0 of a block, from its field data `Unit` or else from the spacings. */
 double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
 {
-  const auto written = [](vtkImageData* block)
+  const auto storedUnit = [](vtkImageData* block)
   {
     vtkDataArray* unit = block->GetFieldData()->GetArray("Unit");
     return unit && unit->GetNumberOfTuples() == 1 ? std::max(unit->GetTuple1(0), 0.0) : 0.0;
   };
-  if (written(level0) > 0.0 && written(image) > 0.0)
+  if (storedUnit(level0) > 0.0 && storedUnit(image) > 0.0)
   {
-    return written(image) / written(level0);
+    return storedUnit(image) / storedUnit(level0);
   }
   double ratio = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
@@ -231,8 +227,7 @@ ImageLevels MakeImageLevels(
     { made = MakeLevelVoxels(level0, valid.Marks, plan, threads, progress); });
 
   ImageLevels levels;
-  // No voxel is copied, but where they were folded, or one component was selected: then the new
-  // array takes the place of theirs.
+  // Voxels are copied only by FoldVoxels() and SelectComponent(). The copy replaces the array.
   levels.Levels.push_back({ WithVoxels(image, finest), finest, plan[0].Unit });
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
@@ -241,7 +236,7 @@ ImageLevels MakeImageLevels(
   }
   levels.IsComplete = levels.Levels.size() == plan.size();
   levels.NaNs = valid.NaNs;
-  levels.AboutNaNs = valid.NaNs > 0 ? DescribeNaNs(voxels, image, valid) : std::string();
+  levels.NaNWarning = valid.NaNs > 0 ? DescribeNaNs(voxels, image, valid) : std::string();
   return levels;
 }
 
@@ -251,8 +246,7 @@ ImageLevels LevelsOfBlocks(
   if (blocks->GetNumberOfBlocks() == 0)
   {
     ThrowInvalidArgument(
-      "there is no level: the input has no blocks, as after an error of Image Pyramid.",
-      LevelsWayOut);
+      "the input has no blocks, as after an error of Image Pyramid.", LevelsAdvice);
   }
   ImageLevels levels;
   for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
@@ -262,7 +256,7 @@ ImageLevels LevelsOfBlocks(
     if (!image)
     {
       ThrowInvalidArgument("block ", h, " is ", block ? block->GetClassName() : "empty",
-        ", not an image.", LevelsWayOut);
+        ", not an image.", LevelsAdvice);
     }
     const vtkSmartPointer<vtkDataArray> voxels =
       PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); });
@@ -273,7 +267,7 @@ ImageLevels LevelsOfBlocks(
     levels.Levels.push_back({ image, voxels, 1.0 });
     levels.Levels.back().Unit = UnitOfBlock(levels.Levels[0].Image, image);
   }
-  // Image Pyramid has counted them, and told of them.
+  // Image Pyramid has counted and reported them.
   if (!blocks->GetFieldData()->HasArray("NaNVoxels"))
   {
     const ImageLevel& finest = levels.Levels[0];
@@ -284,7 +278,7 @@ ImageLevels LevelsOfBlocks(
         return FindValidVoxels(
           finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image, nanIsBackground, thread);
       });
-    levels.AboutNaNs =
+    levels.NaNWarning =
       valid.NaNs > 0 ? DescribeNaNs(finest.Voxels, finest.Image, valid) : std::string();
   }
   return levels;
@@ -335,7 +329,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels)
   for (std::size_t h = 0; h < levels.Levels.size(); ++h)
   {
     vtkImageData* image = levels.Levels[h].Image;
-    // Not into the input's own field data, which a shallow copy may share.
+    // Do not modify the field data of the input, which a shallow copy may share.
     vtkNew<vtkFieldData> fieldData;
     fieldData->ShallowCopy(image->GetFieldData());
     AddField<vtkIntArray>(fieldData, "Level", static_cast<int>(h));

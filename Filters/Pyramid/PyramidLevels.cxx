@@ -20,24 +20,23 @@ namespace volumic
 {
 namespace
 {
-void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
+void CheckSize(vtkImageData* image, const std::string& name, const char* advice)
 {
   const int* size = image->GetDimensions();
   if (*std::min_element(size, size + 3) == 1)
   {
-    ThrowInvalidArgument(what, " is 2D (", SizeOf(image), " voxels); a surface needs a volume.");
+    ThrowInvalidArgument(name, " is 2D (", SizeOf(image),
+      " voxels). Connect an image with at least ", PyramidLevels::MinimumSize,
+      " voxels along each axis.");
   }
   if (*std::min_element(size, size + 3) < PyramidLevels::MinimumSize)
   {
-    ThrowInvalidArgument(what, " has ", SizeOf(image), " voxels; at least ",
-      PyramidLevels::MinimumSize, " are needed along each axis. ", wayOut);
+    ThrowInvalidArgument(name, " has ", SizeOf(image), " voxels; it must have at least ",
+      PyramidLevels::MinimumSize, " along each axis. ", advice);
   }
 }
 
-/**
- * The voxels as the surface reads them. Floats are taken as they are, unless their differences are
- * small beside their size; of all others `base` is subtracted.
- */
+/** Set the values of an image. `base` is subtracted, except from floats with enough resolution. */
 void ShareVoxels(
   LevelImage& to, vtkDataArray* voxels, const std::array<double, 2>& range, double base)
 {
@@ -50,7 +49,7 @@ void ShareVoxels(
   VisitVoxels(voxels, [&](const auto* values) { to.Values = VoxelValues(values, base); });
 }
 
-/** Copies the values to `filled`, with the background for those that are not marked as valid. */
+/** Copy the values to `filled`. Set invalid ones to the background. */
 void FillInvalid(const LevelImage& image, const LargeVector<std::uint8_t>& marks, double background,
   float* filled, Executor& executor)
 {
@@ -114,11 +113,11 @@ bool PyramidLevels::ContainsPart(
   Executor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
-  bool holds = false;
+  bool contains = false;
   VisitVoxels(voxels,
     [&](const auto* values)
     {
-      holds = HasThickPart(
+      contains = HasThickPart(
         [&](std::int64_t voxel)
         {
           const auto number = static_cast<double>(values[voxel]);
@@ -126,7 +125,7 @@ bool PyramidLevels::ContainsPart(
         },
         this->Sizes[level], least);
     });
-  return holds;
+  return contains;
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -152,15 +151,14 @@ LevelImage PyramidLevels::Load(int requested, double base, double background, Ex
   CheckSize(this->Levels[level].Image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
   const ValidVoxels valid = this->ValidAt(level, executor);
-  // Sums and differences of voxels must not overflow either.
+  // Sums and differences of voxels must not overflow.
   constexpr double largest = 1e37;
   const std::array<double, 2> range = this->Range(level);
   const double size = std::max(std::abs(range[0]), std::abs(range[1]));
   if (size > largest)
   {
-    ThrowInvalidArgument(name, ": ", NameOf(this->Levels[level].Voxels), " has values of ", size,
-      " in size; at most ", largest,
-      " can be used, since the surface computes in single precision. Scale the image.");
+    ThrowInvalidArgument(name, ": ", NameOf(this->Levels[level].Voxels), " has absolute values of ",
+      size, ", more than ", largest, ", the limit of single precision. Scale the image.");
   }
 
   this->Loaded = voxels;

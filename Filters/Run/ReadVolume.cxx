@@ -18,7 +18,7 @@ namespace volumic
 {
 namespace
 {
-LevelsOptions OptionsAsSet(const SegmentationSettings& settings)
+LevelsOptions MakeLevelsOptions(const SegmentationSettings& settings)
 {
   LevelsOptions options;
   options.Pyramid = settings.Pyramid;
@@ -33,12 +33,12 @@ vtkSmartPointer<vtkImageData> CompleteImage(
   SegmentationRequest& request, vtkImageData* image, Volume& volume)
 {
   SegmentationSettings& settings = request.Settings;
-  const PointVoxels voxels = TakeCellsAsPoints(image, request.Selection);
+  const PointVoxels voxels = ConvertCellsToPoints(image, request.Selection);
   request.Selection = voxels.Selection;
   if (std::isnan(settings.Options.IsoValue))
   {
     settings.Options.IsoValue =
-      PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
+      PrefixErrors("Iso Value is not set, and cannot be computed: Input port 0: ",
         [&]
         {
           return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent)
@@ -63,7 +63,7 @@ void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& pro
   {
     image = CompleteImage(request, image, volume);
   }
-  LevelsOptions options = OptionsAsSet(settings);
+  LevelsOptions options = MakeLevelsOptions(settings);
   double factorBelow = volume.Voxels.FactorBelow;
   if (settings.EdgeLength != 0.0)
   {
@@ -89,13 +89,13 @@ ImageLevels ReadBlocks(const SegmentationRequest& request, const Progress& progr
   const SegmentationSettings& settings = request.Settings;
   ImageLevels levels = LevelsOfBlocks(vtkMultiBlockDataSet::SafeDownCast(request.Volume),
     request.Selection, settings.NaNIsBackground);
-  // The mean of folded voxels differs from the folded mean.
+  // FoldVoxels() does not commute with the means of coarser levels.
   if (settings.Range().IsUsed())
   {
-    LevelsOptions options = OptionsAsSet(settings);
+    LevelsOptions options = MakeLevelsOptions(settings);
     options.Pyramid = levels.Options();
     levels = MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
-    levels.AboutNaNs.clear(); // Image Pyramid has reported them.
+    levels.NaNWarning.clear(); // Image Pyramid has reported it.
   }
   return levels;
 }
@@ -109,9 +109,9 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
   if (!isChosen)
   {
     ThrowInvalidArgument(
-      "Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
-      "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
-      "magnitude.");
+      "Edge Attraction Weight is not 0, but there is no edge map. Choose a second point array of "
+      "the "
+      "image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient magnitude.");
   }
   PrefixErrors(EdgeErrorPrefix,
     [&]
@@ -124,7 +124,7 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
 
 Volume ReadVolume(SegmentationRequest& request, const Progress& progress)
 {
-  request.Settings.Range(); // Check it before anything is read.
+  request.Settings.Range(); // Check the range before reading.
   Volume volume;
   if (vtkMultiBlockDataSet::SafeDownCast(request.Volume) && !request.Settings.OfImages)
   {

@@ -24,7 +24,7 @@ PyramidLevels LevelsOfVoxels(const SegmentationRequest& request, const Volume& v
     [&] { return PyramidLevels(volume.Voxels, settings.Metric, settings.NaNIsBackground); });
 }
 
-/** What voxels get that are not valid: as far from the iso-value as any voxel is (Field.h). */
+/** Return the value of invalid voxels: as far from the iso-value as any voxel is (Field.h). */
 double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options)
 {
   const double iso = options.IsoValue;
@@ -54,11 +54,11 @@ void SegmentationLevels::ReadPoints(const SegmentationRequest& request)
       return AttractingPointsOf(
         request.AttractingPoints, this->GetComputationalSpace(), this->Voxels.SizeOf(0));
     });
-  for (const Point& place : PositionsOf(settings.AttractingPositions, "Attracting Positions",
+  for (const Point& position : PositionsOf(settings.AttractingPositions, "Attracting Positions",
          this->GetComputationalSpace(), this->Voxels.SizeOf(0)))
   {
     points.emplace_back();
-    points.back().Place = place;
+    points.back().Position = position;
   }
   if (!points.empty() && settings.Options.PointAttractionWeight > 0.0)
   {
@@ -84,16 +84,15 @@ void SegmentationLevels::ReadSeeds(const SegmentationRequest& request)
 
 namespace
 {
-/** @param highest value of the field at the seeds */
+/** @param highest highest value of the field at the seeds */
 [[noreturn]] void ThrowInvalidSeeds(
   std::size_t seeds, float highest, const SegmentationSettings& settings)
 {
   const bool isOne = seeds == 1;
   const bool isBright = settings.Options.ObjectIsBright;
   const ValueRange range = settings.Range();
-  const std::string which =
-    isOne ? "The seed does not lie" : Join("None of the ", seeds, " seeds lies");
-  const std::string what = Join(which, " inside the object, which has values ");
+  const std::string which = isOne ? "the seed is not" : Join("none of the ", seeds, " seeds is");
+  const std::string what = Join(which, " inside the object, whose values are ");
   const std::string move = Join(". Move ", isOne ? "it" : "one", " into the object, or set ");
   if (range.IsUsed())
   {
@@ -102,7 +101,8 @@ namespace
   }
   const double value = range.Lower + static_cast<double>(isBright ? highest : -highest);
   ThrowInvalidArgument(what, isBright ? "above" : "below", " Iso Value ", range.Lower,
-    ": the value there is ", isOne ? "" : (isBright ? "at most " : "at least "), value, move,
+    ": the value at the seed", isOne ? "" : "s", " is ",
+    isOne ? "" : (isBright ? "at most " : "at least "), value, move,
     isBright ? "a lower" : "a higher", " Iso Value.");
 }
 }
@@ -149,14 +149,14 @@ std::array<double, 2> SegmentationLevels::Range(int level) const
 
 bool SegmentationLevels::ContainsObject(int level, const SurfaceOptions& options) const
 {
-  const auto found = this->Holds.find(level);
-  if (found != this->Holds.end())
+  const auto found = this->HasObject.find(level);
+  if (found != this->HasObject.end())
   {
     return found->second;
   }
   const PartSize least =
-    options.RecoverMissedParts ? PartSize{ options.MinimumPartSize, 1 } : PartThatHolds;
-  return this->Holds[level] =
+    options.RecoverMissedParts ? PartSize{ options.MinimumPartSize, 1 } : SmallestPart;
+  return this->HasObject[level] =
            this->Voxels.ContainsPart(level, least, options.IsoValue, options.ObjectIsBright);
 }
 
@@ -171,8 +171,8 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
   }
   if (this->Points)
   {
-    this->Bent = this->Points->Bend(image, options, threads);
-    image.Values = this->Bent.data();
+    this->Modified = this->Points->Bend(image, options, threads);
+    image.Values = this->Modified.data();
   }
   return image;
 }
@@ -183,17 +183,16 @@ VoxelValues SegmentationLevels::LoadEdges(
   return PrefixErrors(EdgeErrorPrefix,
     [&]
     {
-      // The force knows differences only.
+      // The force depends on differences only.
       const double lowest = this->Edges->Range(0)[0];
       const LevelImage loaded = level < this->Edges->NumberOfLevels()
         ? this->Edges->Load(level, lowest, lowest, threads)
         : LevelImage();
       if (loaded.Size != size)
       {
-        ThrowInvalidArgument("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1],
-          " x ", loaded.Size[2], " voxels, that of the voxels ", size[0], " x ", size[1], " x ",
-          size[2],
-          ". Give the image instead of its pyramid, or one whose blocks all carry both arrays.");
+        ThrowInvalidArgument("level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",
+          loaded.Size[2], " voxels, but the level of the image has ", size[0], " x ", size[1],
+          " x ", size[2], ". Connect the image, or a pyramid whose blocks all have both arrays.");
       }
       return loaded.Values;
     });
@@ -206,6 +205,6 @@ void SegmentationLevels::ReleaseCoarserThan(int level)
   {
     this->Edges->ReleaseCoarserThan(level);
   }
-  this->Bent = std::vector<float>();
+  this->Modified = std::vector<float>();
 }
 }

@@ -10,8 +10,8 @@ namespace volumic
 {
 namespace
 {
-/** Why there is a grading, for an error. */
-std::string WhatGrades(const Grading& grading)
+/** Return the property that requests a grading, for messages. */
+std::string DescribeGrading(const Grading& grading)
 {
   return grading.HasTolerance() ? Join("Tolerance is ", grading.Tolerance) : "Thin Parts is on";
 }
@@ -24,23 +24,23 @@ void CheckGrading(const Grading& grading, double edgeLength)
     if (!(value >= 0.0 && std::isfinite(value)))
     {
       ThrowInvalidArgument(
-        name, " is ", value, "; it must be 0 (", zero, ") or more, in world units.");
+        name, " is ", value, ". Set it to 0 (", zero, ") or more, in world units.");
     }
   };
   checkLength("Tolerance", grading.Tolerance, "edges of one length");
   checkLength("Maximum Edge Length", grading.MaximumEdgeLength, "automatic");
   if (!(grading.Gradation > 0.0) || grading.Gradation > Grading::MostGradation)
   {
-    ThrowInvalidArgument("Gradation is ", grading.Gradation,
-      "; it must be more than 0 and at most ", Grading::MostGradation, ".");
+    ThrowInvalidArgument("Gradation is ", grading.Gradation, ". Set it to more than 0 and at most ",
+      Grading::MostGradation, ".");
   }
   if (grading.IsRequested() && edgeLength != 0.0)
   {
-    ThrowInvalidArgument(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
-      grading.HasTolerance() ? "keep a tolerance" : "are shorter in thin parts",
-      " or are of one length. Set Edge Length to 0, or switch ",
-      grading.HasTolerance() && grading.ThinParts ? "Tolerance and Thin Parts" : "the other",
-      " off.");
+    ThrowInvalidArgument(DescribeGrading(grading), " and Edge Length is ", edgeLength,
+      ", but graded edges have no uniform length. Set Edge Length to 0, or ",
+      grading.HasTolerance() ? "set Tolerance to 0" : "",
+      grading.HasTolerance() && grading.ThinParts ? " and " : "",
+      grading.ThinParts ? "switch Thin Parts off" : "", ".");
   }
 }
 
@@ -53,28 +53,28 @@ void SegmentationSettings::Check() const
   if (options.MaximumNumberOfIterations < 1)
   {
     ThrowInvalidArgument("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
-      "; it must be at least 1.");
+      ". Set it to at least 1.");
   }
   if (this->SnapshotInterval < 0)
   {
     ThrowInvalidArgument(
-      "Snapshot Interval is ", this->SnapshotInterval, "; it must be 0 (off) or more.");
+      "Snapshot Interval is ", this->SnapshotInterval, ". Set it to 0 (none) or more.");
   }
   if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
   {
     ThrowInvalidArgument(
-      "Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
+      "Seed Radius is ", options.SeedRadius, ". Set it to 0 (automatic) or more.");
   }
   CheckGrading(this->Grading, this->EdgeLength);
   if (this->Grading.IsRequested() && !options.Drive().LiesAtIsoValue)
   {
-    ThrowInvalidArgument(WhatGrades(this->Grading), ", but ",
+    ThrowInvalidArgument(DescribeGrading(this->Grading), ", but ",
       options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
                              : "Snap To Iso Value is off",
-      ": the surface does not lie at the iso-value, from which ",
-      this->Grading.HasTolerance() ? "a tolerance is measured. Set it to 0"
-                                   : "thickness is. Switch it off",
-      ", or change that.");
+      ", so the surface is not on the isosurface. ",
+      this->Grading.HasTolerance() ? "Set Tolerance to 0, or " : "Switch Thin Parts off, or ",
+      options.SnapToIsoValue ? "set a larger Isopotential Weight."
+                             : "switch Snap To Iso Value on.");
   }
 }
 }

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Draw the pictures of data in README.md and Documentation/ that Examples/quickstart.sh does not
-draw, all with one command:
+"""Draw the pictures of data in README.md and Documentation/ with one command:
 
     xvfb-run -a /usr/bin/python3 Testing/Benchmarks/figures.py --vessels aneurism.vti 100.5
 
+    levels     the surface of each level                                     Cranium.inv3
+    views      the surface from outside, and cut open                        Cranium.inv3
     graded     uniform triangles, and fewer within a tolerance               Cranium.inv3, --graded
     thin       uniform triangles, and smaller ones at thin parts             Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
@@ -14,6 +15,7 @@ draw, all with one command:
     vessels    the paper's figure 6, with recovery and without               --vessels
     labels     surfaces of a label map                                       --label-map
     interfaces one mesh of labels that touch                                 generated grains
+    tetrahedra a tetrahedral mesh of labels, cut open                        --tetrahedra
 
 The paper's settings are four levels and no recovery.
 
@@ -21,8 +23,9 @@ Cranium.inv3 is the CT of a skull of Debian's package invesalius-examples. --ves
 bright vessels and its iso-value; it may be repeated: the first scan is drawn as vessels.png, others
 as vessels-NAME.png, with the name of the file. --graded names another scan, its iso-value and a
 tolerance in its unit of length; it may be repeated and is drawn as graded-NAME.png. --label-map
-names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data. Pictures whose
-option is not given are not drawn. Each picture has less than 300 kB.
+names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data. --tetrahedra
+names a .vtu with labels that the command has written. Pictures whose option is not given are not
+drawn. Each picture has less than 300 kB.
 """
 
 import argparse
@@ -42,7 +45,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import history_chart
 import pictures
 import render
-from label_pictures import interface_picture, label_picture
+from label_pictures import interface_picture, label_picture, tetrahedra_picture
 from pictures import blocks_of, close_view, main_component, number, surface_row, visited_levels
 
 SKULL = os.environ.get(
@@ -123,19 +126,45 @@ def panel_width(columns):
     return (ROW_WIDTH - GAP) // columns - GAP
 
 
+def levels(skull):
+    surfaces = [(f"Level {level}", surface)
+                for level, surface in visited_levels(skull.run().GetLevels())]
+    row, captions = surface_row(surfaces, skull.frame, surfaces[-1][1].GetBounds(),
+                                panel_width(len(surfaces)))
+    return render.compose([row], [captions])
+
+
+def views(skull):
+    surface, _ = main_component(skull.run().GetOutput())
+    frame, width = skull.frame, panel_width(4)
+    views_outside, bounds = pictures.OUTSIDE[1:], surface.GetBounds()
+    size = width, render.fitting_height(width, frame, views_outside, bounds)
+    row = [render.draw([render.surface_actor(surface)], size, frame, *view, bounds)
+           for view in views_outside]
+    row += [render.draw([pictures.cut_open(surface, -frame.vector(view[0]))], size, frame, *view,
+                        bounds) for view in pictures.INSIDE]
+    names = (*pictures.NAMES[0][1:], *pictures.NAMES[1][:2])
+    return render.compose([row], [[(name,) for name in names]])
+
+
 def graded(scan, tolerance=0.5, unit=" mm"):
     return beside_uniform(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
 
 
 def thin(skull):
-    return beside_uniform(skull, "Thin parts", {"ThinParts": True}, towards="P", at=EDGE_OF_THE_REST)
+    return beside_uniform(skull, "Thin parts", {"ThinParts": True}, whole, towards="P",
+                          at=EDGE_OF_THE_REST)
 
 
-def beside_uniform(scan, name, properties, **view):
+def whole(surface):
+    return surface, None
+
+
+def beside_uniform(scan, name, properties, shown_of=main_component, **view):
     """Draw the triangles of a run beside those of uniform edge length."""
     width, uniform = panel_width(2), scan.run().GetOutput()
     surfaces = {"Uniform edge length": uniform, name: scan.run(**properties).GetOutput()}
-    row = [close_view(main_component(surface)[0], scan.frame, (width, width * 3 // 10),
+    row = [close_view(shown_of(surface)[0], scan.frame, (width, width * 3 // 10),
                       delta=number(uniform, "Delta"), **view) for surface in surfaces.values()]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
                                    for name, surface in surfaces.items()]])
@@ -188,7 +217,7 @@ def evolution(skull):
     bounds = np.array([surface.GetBounds() for row in rows for _, surface in row])
     bounds = np.where([True, False] * 3, bounds.min(axis=0), bounds.max(axis=0))
     width = panel_width(max(map(len, rows)))
-    panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=START_ZOOM)
+    panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=1)
                              for row in rows))
     return render.compose(panels, captions, None,
                           ["Without the pyramid (the paper's figure 3)",
@@ -227,6 +256,10 @@ def interfaces(_):
     return interface_picture(panel_width(2))
 
 
+def tetrahedra(path):
+    return tetrahedra_picture(path, panel_width(2))
+
+
 def all_levels_row(surface, coarsest, frame, bounds):
     """Return panels and captions of all levels from the coarsest, empty where there is no surface."""
     counts = dict(iterations(surface))
@@ -250,7 +283,7 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (graded, thin, history, evolution)
+SKULL_PICTURES = (levels, views, graded, thin, history, evolution)
 
 
 def further_name(picture, path):
@@ -271,7 +304,8 @@ def write_picture(draw, scan, folder, name=None):
 
 def main():
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Documentation")
-    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces"]
+    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces",
+                                                             "tetrahedra"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
@@ -281,6 +315,7 @@ def main():
     parser.add_argument("--graded", nargs=3, metavar=("VOLUME", "ISO", "TOLERANCE"),
                         action="append", default=[], help="may be repeated: graded-NAME.png")
     parser.add_argument("--label-map", metavar="FILE", help="for labels.png")
+    parser.add_argument("--tetrahedra", metavar="FILE.vtu", help="for tetrahedra.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
                         help="volume used instead of the skull")
     arguments = parser.parse_args()
@@ -300,6 +335,8 @@ def main():
                           further_name("graded", path))
         if "labels" in arguments.only and arguments.label_map:
             write_picture(labels, arguments.label_map, arguments.output)
+        if "tetrahedra" in arguments.only and arguments.tetrahedra:
+            write_picture(tetrahedra, arguments.tetrahedra, arguments.output)
         if "interfaces" in arguments.only:
             write_picture(interfaces, None, arguments.output)
         if "vessels" in arguments.only and not scans:

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of labels: surfaces of an atlas by Volumic and by VTK, and one mesh of grains."""
+"""Pictures of labels: surfaces of an atlas by Volumic and by VTK, one mesh of grains, and a
+tetrahedral mesh cut open."""
 
 import numpy as np
 import render
@@ -8,9 +9,12 @@ import volumic
 from interfaces import image_of, polycrystal
 from pictures import blocks_of
 from volumic.arrays import make_image
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkWindowedSincPolyDataFilter
+from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkThreshold, vtkWindowedSincPolyDataFilter
+from vtkmodules.vtkFiltersExtraction import vtkExtractGeometry
 from vtkmodules.vtkFiltersGeneral import vtkDiscreteFlyingEdges3D
+from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 CLOSE_LABELS = (1, 3, 4, 5)  # white matter atlas: corpus callosum, middle cerebellar peduncle
 SIZE = 32  # voxels along each axis
@@ -73,6 +77,7 @@ def interface_picture(width):
     """Draw two panels of this width: all grains, and all but the nearest ones."""
     surfaces = volumic.vtkLabelsToSurfaces()
     surfaces.SetInputData(image_of(polycrystal(SIZE, GRAINS)))
+    surfaces.SetBoxFacesToFlat()
     surfaces.Update()
     frame, mesh = render.Frame(), surfaces.GetInterfaces()
     towards = frame.vector("LLAS")
@@ -88,3 +93,48 @@ def interface_picture(width):
     return render.compose([panels], [[
         (f"{GRAINS} labels, one mesh of {mesh.GetNumberOfPolys()} triangles",),
         ("without the front grains: each interface exists once",)]])
+
+
+def tetrahedra_picture(path, width):
+    """Two panels of a .vtu with its labels: the whole mesh, and its tetrahedra behind a plane."""
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(path)
+    reader.Update()
+    grid, frame = reader.GetOutput(), render.Frame("RAS")
+    colors = colors_of(grid)
+    half = vtkExtractGeometry()
+    half.SetInputData(grid)
+    plane = vtkPlane()
+    plane.SetOrigin(grid.GetCenter())
+    plane.SetNormal(frame.vector("L"))
+    half.SetImplicitFunction(plane)
+    half.Update()
+    panels = []
+    for shown in (grid, half.GetOutput()):
+        actors = [render.surface_actor(skin_of(shown, label), color, edges=True)
+                  for label, color in colors.items()]
+        panels.append(render.draw(actors, (width, width * 3 // 4), frame, "LLLAS", "S",
+                                  grid.GetBounds(), zoom=1.12))
+    return render.compose([panels], [[
+        (f"{len(colors)} labels, {grid.GetNumberOfCells()} tetrahedra",), ("cut open",)]])
+
+
+def colors_of(grid):
+    """{label: colour} of the field data."""
+    fields = grid.GetFieldData()
+    labels, colors = (fields.GetArray(name) for name in ("Label", "LabelColor"))
+    return {int(labels.GetTuple1(i)): colors.GetTuple3(i)
+            for i in range(labels.GetNumberOfTuples())}
+
+
+def skin_of(grid, label):
+    """The outer faces of the tetrahedra of a label."""
+    chosen = vtkThreshold()
+    chosen.SetInputData(grid)
+    chosen.SetInputArrayToProcess(0, 0, 0, 1, "Label")
+    chosen.SetLowerThreshold(label)
+    chosen.SetUpperThreshold(label)
+    skin = vtkGeometryFilter()
+    skin.SetInputConnection(chosen.GetOutputPort())
+    skin.Update()
+    return skin.GetOutput()

@@ -173,7 +173,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
   EXPECT_EQ(errors.Get(), "");
-  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("The surface has vanished at level 0")) << warnings.Get();
 }
 
 TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)

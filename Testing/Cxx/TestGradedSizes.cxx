@@ -155,25 +155,25 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
 {
   const LargeVector<float> sizes = { 1.f, 4.f };
   const SizingField even(1.f);
-  EXPECT_EQ(even.Further(), 1.f);
-  float before = even.Reach(0);
+  EXPECT_EQ(even.RadiusFactor(), 1.f);
+  float before = even.SearchRadius(0);
   for (const double gradation : { .1, .2, .3 })
   {
     SCOPED_TRACE(gradation);
     const SizingField sizing = even.Graded(sizes, 4.f, static_cast<float>(gradation));
-    EXPECT_GT(sizing.Reach(0), before);
-    before = sizing.Reach(0);
+    EXPECT_GT(sizing.SearchRadius(0), before);
+    before = sizing.SearchRadius(0);
     // From v to a point of its star, and on to a corner of a face that grows with the distance d:
     // d = .36 longest + (1 + g d) 2.5 / sqrt 3, both in delta.
     const double longest = 1. / (1. - 1.25 * gradation); // Its delta is the mean of both ends'.
     const double furthest =
       (.36 * longest + 2.5 / std::sqrt(3.)) / (1. - gradation * 2.5 / std::sqrt(3.));
-    EXPECT_GT(sizing.Reach(0), furthest);
-    EXPECT_EQ(sizing.Reach(1), SizingField(4.f).Reach(1)) << "nothing is larger";
+    EXPECT_GT(sizing.SearchRadius(0), furthest);
+    EXPECT_EQ(sizing.SearchRadius(1), SizingField(4.f).SearchRadius(1)) << "nothing is larger";
   }
   // While it evolves a part with the largest may come near to one with the least.
   const SizingField any = even.Graded(sizes, 4.f, 1.f);
-  EXPECT_EQ(any.Reach(0), SizingField(4.f).Reach(0));
+  EXPECT_EQ(any.SearchRadius(0), SizingField(4.f).SearchRadius(0));
 }
 
 TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)

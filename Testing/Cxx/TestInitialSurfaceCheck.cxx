@@ -130,10 +130,10 @@ TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
   const IndexedSurface inner = Cuboid({ 12, 12, 12 }, { 28, 28, 28 });
   IndexedSurface twice = box;
   AddSurface(twice, inner);
-  EXPECT_TRUE(Has(ErrorMessageOf(twice), "1 of its 2 components face the wrong way"));
+  EXPECT_TRUE(Has(ErrorMessageOf(twice), "1 of its 2 components have the wrong orientation"));
   IndexedSurface beside = Cuboid({ 5, 5, 5 }, { 20, 35, 35 });
   AddSurface(beside, InsideOut(Cuboid({ 25, 5, 5 }, { 35, 35, 35 })));
-  EXPECT_TRUE(Has(ErrorMessageOf(beside), "face the wrong way"));
+  EXPECT_TRUE(Has(ErrorMessageOf(beside), "have the wrong orientation"));
   IndexedSurface hollow = box;
   AddSurface(hollow, InsideOut(inner));
   AddSurface(hollow, Cuboid({ 16, 16, 16 }, { 24, 24, 24 }));

@@ -7,7 +7,7 @@ using namespace volumic;
 
 namespace
 {
-/** Two tetrahedra, objects 1 and 2, that have a face in common. */
+/** Two tetrahedra, objects 1 and 2, with a common face. */
 InterfaceMesh TwoTetrahedra()
 {
   InterfaceMesh mesh;
@@ -28,7 +28,7 @@ InterfaceMesh TwoTetrahedra()
 }
 }
 
-TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
+TEST(InterfaceMesh, HasLinesAtEdgesOfThreeFaces)
 {
   const InterfaceMesh mesh = TwoTetrahedra();
   EXPECT_EQ(mesh.FindLines(), (std::vector<std::array<int, 2>>{ { 0, 1 }, { 0, 2 }, { 1, 2 } }));
@@ -39,7 +39,7 @@ TEST(InterfaceMesh, HasLinesWhereThreeFacesMeet)
 
 namespace
 {
-/** Four faces about an edge along z, at angles of degrees, between objects 1, 2, 3 and 4. */
+/** Four faces around an edge along z, at angles in degrees, between objects 1, 2, 3 and 4. */
 InterfaceMesh FacesAt(const std::array<double, 4>& angles)
 {
   InterfaceMesh mesh;
@@ -61,7 +61,7 @@ InterfaceMesh FacesAt(const std::array<double, 4>& angles)
 }
 }
 
-TEST(JunctionWedges, AreBetweenFacesThatAreNextToEachOther)
+TEST(JunctionWedges, AreBetweenNeighbouringFaces)
 {
   const double degree = std::acos(-1.) / 180.;
   EXPECT_NEAR(NarrowestWedge(FacesAt({ 0., 90., 175., 270. })).Angle, 85. * degree, 1e-6);
@@ -72,7 +72,7 @@ TEST(JunctionWedges, AreBetweenFacesThatAreNextToEachOther)
   EXPECT_EQ(NarrowestWedge(InterfaceMesh()).Edge[0], -1) << "there are no lines";
 }
 
-TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
+TEST(InterfaceClearance, DetectsFacesTurnedPastOthers)
 {
   const auto areInOrder = [](const std::array<double, 4>& angles, int u, int v)
   {
@@ -91,7 +91,7 @@ TEST(InterfaceClearance, KnowsFacesThatAreTurnedPastOthers)
   EXPECT_FALSE(areInOrder({ 0., 90., 180., 10. }, 1, 0));
 }
 
-TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
+TEST(InterfaceClearance, RejectsFacesTurnedPastOthers)
 {
   const InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
   InterfaceClearance clearance(mesh, 1e-3);
@@ -99,13 +99,13 @@ TEST(InterfaceClearance, LetsNoFaceBeTurnedPastAnother)
   std::vector<int> near;
   std::vector<FaceCoordinates> made = { FaceCoordinatesOf(mesh, mesh.Faces[1]) };
   EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
-  made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // Before that of 180 degrees.
+  made.front().Corner[0] = VectorD(-0.9, 0.3, 0.5); // before the face at 180 degrees
   EXPECT_TRUE(clearance.AreClear(made, { 1 }, near));
-  made.front().Corner[0] = VectorD(-0.9, -0.3, 0.5); // Beyond it, without any crossing.
+  made.front().Corner[0] = VectorD(-0.9, -0.3, 0.5); // past it, without an intersection
   EXPECT_FALSE(clearance.AreClear(made, { 1 }, near));
 }
 
-TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
+TEST(InterfaceClearance, RejectsIntersections)
 {
   InterfaceMesh mesh = FacesAt({ 0., 90., 180., 270. });
   const int first = mesh.AddVertex(Vector(0.4f, 0.1f, 0.5f), Stratum::Interface);
@@ -117,7 +117,7 @@ TEST(InterfaceClearance, LetsNoFaceIntersectThoseThatStay)
   std::vector<int> near;
   std::vector<FaceCoordinates> made = { FaceCoordinatesOf(mesh, mesh.Faces[beside]) };
   EXPECT_TRUE(clearance.AreClear(made, { beside }, near));
-  made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // Through the face at 0 degrees.
+  made.front().Corner[0] = VectorD(0.4, -0.2, 0.5); // through the face at 0 degrees
   EXPECT_FALSE(clearance.AreClear(made, { beside }, near));
-  EXPECT_TRUE(clearance.AreClear(made, { 0, beside }, near)) << "that one goes, too";
+  EXPECT_TRUE(clearance.AreClear(made, { 0, beside }, near)) << "this face is replaced as well";
 }

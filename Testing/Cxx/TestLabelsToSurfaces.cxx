@@ -90,7 +90,7 @@ TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
     filter->SetInputData(image);
     const MessagesOf warnings(filter, vtkCommand::WarningEvent);
     filter->Update();
-    EXPECT_TRUE(warnings.Has("'Labels' has 1 label that 32 bits don't hold"));
+    EXPECT_TRUE(warnings.Has("'Labels' has 1 label outside the range of int"));
     EXPECT_TRUE(warnings.Has("4294967295 is 8."));
     ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 7", "4294967295" }));
     EXPECT_EQ(FieldOf(BlockOf(filter, 1), "Label"), 8.0);

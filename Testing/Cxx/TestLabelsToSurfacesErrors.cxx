@@ -72,13 +72,13 @@ TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
   colours->SetDimensions(9, 9, 9);
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   const std::vector<std::pair<vtkSmartPointer<vtkImageData>, std::vector<std::string>>> cases = {
-    { map(9, [](int) { return 0.; }), { "Input port 0", "no label but Background Label, 0" } },
+    { map(9, [](int) { return 0.; }), { "Input port 0", "no label except Background Label, 0" } },
     { map(
         9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
       { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
     { map(
         9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
-      { "no label but Background Label, 0" } },
+      { "no label except Background Label, 0" } },
     { map(1, [](int i) { return std::floor(i / 4.); }),
       { "Input port 0", "9 x 9 x 1", "at least 2" } },
     { colours.Get(), { "Input port 0", "components" } },
@@ -94,10 +94,10 @@ TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
 {
   this->Filter->SetInputData(LabelImageOf(
     17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
-  this->ExpectError({ "4913 different values", "4096", "no label map", "Volume to Surface" });
+  this->ExpectError({ "4913 different values", "4096", "not a label map", "Volume to Surface" });
   this->Filter->SetInputData(LabelImageOf(
     17, 17, 17, [](int i, int j, int k) { return 1e10 + i + 17 * (j + 17 * k); }, VTK_LONG_LONG));
-  this->ExpectError({ "more than 4096 different values that 32 bits don't hold", "10000000000" });
+  this->ExpectError({ "more than 4096 different values outside the range of int", "10000000000" });
   this->Filter->SetInputData(LabelImageOf(
     17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
   // Some of them can be chosen.
@@ -202,7 +202,7 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
   MessagesOf errors(this->Filter);
   this->Filter->Update();
   EXPECT_TRUE(hasThrown);
-  EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
+  EXPECT_TRUE(errors.Has("not enough memory for the surfaces")) << errors.Get();
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
@@ -223,7 +223,7 @@ TEST_F(LabelsToSurfacesErrors, LabelsLeftOutByKeepComponentsAreNamed)
   EXPECT_EQ(BlockOf(this->Filter, 2)->GetNumberOfCells(), 0);
   EXPECT_EQ(StopReason(BlockOf(this->Filter, 2)), "vanished");
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
-  EXPECT_TRUE(Has(this->MissedLabels(), "No surface is left of Label 9"));
-  EXPECT_TRUE(Has(this->MissedLabels(), "left out by Keep Components"));
+  EXPECT_TRUE(Has(this->MissedLabels(), "These labels have no surface: Label 9"));
+  EXPECT_TRUE(Has(this->MissedLabels(), "removed by Keep Components"));
   EXPECT_EQ(warnings.Get(), "") << "a speck beside balls is no warning";
 }

@@ -7,13 +7,13 @@ using namespace volumic;
 
 namespace
 {
-/** Any part may be near another. */
+/** A surface whose vertices are all marked as near others. */
 struct CrowdedSurface : LiveSurface
 {
   explicit CrowdedSurface(const SurfaceMesh& mesh) : LiveSurface(mesh) { this->NearOthers.Fill(1); }
 };
 
-std::vector<int> AliveOnes(const SurfaceState& state)
+std::vector<int> AliveVertices(const SurfaceState& state)
 {
   std::vector<int> alive;
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -26,7 +26,7 @@ std::vector<int> AliveOnes(const SurfaceState& state)
   return alive;
 }
 
-/** A sphere whose vertices have been moved about on it. */
+/** Return a sphere with vertices displaced randomly on it. */
 SurfaceMesh ShakenSphere(unsigned seed)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.5);
@@ -68,7 +68,7 @@ Shape ShapeOf(const SurfaceState& state)
 }
 }
 
-TEST(SurfaceOptimization, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
+TEST(SurfaceOptimization, RestoresEdgeLengthsAndTriangleQuality)
 {
   for (unsigned seed = 1; seed <= 4; ++seed)
   {
@@ -79,7 +79,7 @@ TEST(SurfaceOptimization, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
     ASSERT_GT(before.EdgesOutside, 10);
     ASSERT_LT(before.WorstRatio, 0.5);
     SurfaceOptimization optimize(state, nullptr, false);
-    optimize.Run(AliveOnes(state));
+    optimize.Run(AliveVertices(state));
     const Shape after = ShapeOf(state);
     EXPECT_EQ(after.EdgesOutside, 0);
     EXPECT_GT(after.WorstRatio, 0.5);
@@ -91,14 +91,14 @@ TEST(SurfaceOptimization, LeavesNoEdgeOutsideTheBoundsAndNoUnevenTriangle)
   }
 }
 
-TEST(SurfaceOptimization, PushesApartWhatIsFarApartOnTheSurface)
+TEST(SurfaceOptimization, RestoresClearance)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 8, 1.5);
   mesh.Append(DividedIcosahedron({ 0, 0, 0 }, 6.9, 1.5));
   CrowdedSurface state(mesh);
   const auto nearest = [&state]()
   {
-    // The two components are far apart on the surface throughout.
+    // The two components are not connected.
     double least = 1e9;
     for (int v = 0; v < state.Mesh.Size(); ++v)
     {
@@ -115,7 +115,7 @@ TEST(SurfaceOptimization, PushesApartWhatIsFarApartOnTheSurface)
     return least;
   };
   ASSERT_LT(nearest(), 1.2);
-  SurfaceOptimization(state, nullptr, false).Run(AliveOnes(state));
+  SurfaceOptimization(state, nullptr, false).Run(AliveVertices(state));
   EXPECT_GT(nearest(), 1.42); // lambda = 1.443
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);

@@ -184,7 +184,7 @@ struct Wilderness
         iteration.Run(this->Motion, SurfaceIteration::Mode::Evolve);
       }
     }
-    const EditCounts counts = visit.Share.Counts;
+    const EditCounts counts = visit.Context.Counts;
     this->Blocks->Close(std::move(visit));
     return counts;
   }

@@ -9,17 +9,17 @@
 namespace volumic
 {
 /**
- * A surface that rests on a level: all that a finer level needs. A division lays grid, order,
- * shapes and pairs anew: what is to come depends on the positions of the vertices, their order, and
- * their rings, from the first neighbour on.
+ * Converged surface of a level: all that a finer level needs. A division recomputes grid, shapes
+ * and pairs. Its result depends on the positions and the order of the vertices, and on the order of
+ * neighbours in their rings.
  */
 struct ConvergedSurface
 {
   SurfaceMesh Mesh;
   int Level = 0;
   float Delta = 0.f;
-  int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
-  EvolutionHistory History; ///< Of all levels.
+  int Unchecked = 1; ///< starts, cuts and deletions since the last test for inverted components
+  EvolutionHistory History; ///< of all levels so far
 };
 }
 

@@ -9,14 +9,14 @@
 namespace volumic
 {
 /**
- * Decides when a level rests: the enclosed volume has changed by less than a limit over both the
- * last 10 and the last 20 iterations. Mean speed stops while tips still grow, a count of moving
- * vertices never ends. The volume is sampled at every fifth iteration. Volumes: any unit.
+ * Convergence of a level: the enclosed volume has changed by less than a limit over the last 10 and
+ * the last 20 iterations. The mean speed vanishes while tips still grow, and the number of moving
+ * vertices may never reach zero. The volume is sampled every fifth iteration, in any unit.
  */
 class ConvergenceCriterion
 {
 public:
-  static constexpr int Interval = 5; ///< Iterations between samples.
+  static constexpr int Interval = 5; ///< iterations between samples
 
   void Add(double volume) { this->Volumes.push_back(volume); }
 

@@ -13,16 +13,16 @@ namespace volumic
 {
 namespace
 {
-/** Eq. (7): delta_h / U_h. */
+/** Range of delta_h / U_h (eq. 7). */
 constexpr double LeastRatio = SizingField::LeastSamplingRatio;
 constexpr double MostRatio = 1.;
 /**
- * Factors between two levels that a single division follows well: the range of the ratio spans
- * 2.5 / sqrt 3 = 1.443, so these leave no gap between the lengths of one level and the next.
+ * Factors between two levels that one division can follow. The range of the ratio spans
+ * 2.5 / sqrt 3 = 1.443, so there is no gap between the lengths of consecutive levels.
  */
 constexpr double LeastFactor = SizingField::LongestEdgeInDelta / SizingField::VoxelDiagonal - 1e-3;
 constexpr double MostFactor = 1.99;
-/** Mean edge lengths in units of level 0: the shortest of level -1, the longest of other levels. */
+/** Mean edge lengths in units of level 0: shortest of level -1, longest of other levels. */
 constexpr double ShortestInUnits = MeanEdgeInDelta * LeastRatio / MostFactor;
 constexpr double LongestInUnits = MeanEdgeInDelta * MostRatio;
 
@@ -59,7 +59,7 @@ EdgeLengthPlan PlanOf(double delta, int last, const EdgeLengthPreferences& prefe
     {
       return { 0, preferred, delta };
     }
-    // The image must be large enough for this level at another factor, too.
+    // The image must be large enough for this level with the adjusted factor.
     most = std::min(most, std::pow(preferred, static_cast<double>(last) / level));
   }
   const double t = std::min(std::max(std::pow(delta / ratio, 1. / level), LeastFactor), most);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How a surface is worked on: in visits of blocks, see SurfaceBlocks, and in sums over blocks.
+// Block passes (see SurfaceBlocks), and sums over blocks.
 
 #include "Core/Evolution/ConvergenceCriterion.h"
 #include "Core/Evolution/Evolution.h"
@@ -20,16 +20,17 @@ namespace volumic
 {
 namespace
 {
-/** Iterations in a block before the next one is visited: those between two looks at the volume. */
+/** Iterations per block pass, which is the sampling interval of the volume. */
 constexpr int SweptIterations = ConvergenceCriterion::Interval;
-/** Sweeps between two looks for components that are inside out. */
+/** Sweeps between two tests for inverted components. */
 constexpr int InsideOutSweeps = 2;
-/** Way in a pass, in delta, under which a vertex is left where it is; and of large surfaces. */
+/** Displacement in a pass, in delta, below which a vertex is deactivated; and for large surfaces.
+ */
 constexpr float SmallestMove = 0.015f;
 constexpr float SmallestMoveOfLarge = 0.04f;
 constexpr int LargeSurface = 20000;
 
-/** What went some way in the last pass stays active, with its neighbours, and what was edited. */
+/** Keep moved and edited vertices and their neighbours active, deactivate all others. */
 void KeepActiveIfMoving(SurfaceState& s, const SurfaceIteration& iteration, float smallestMove)
 {
   const auto moves = [&s, smallestMove](int v)
@@ -75,7 +76,7 @@ void ForgetBlocks(Evolution& e)
 }
 
 void RunBlockPasses(
-  Evolution& e, const Sweep& sweep, const std::function<void(BlockPass& visit)>& visit)
+  Evolution& e, const Sweep& sweep, const std::function<void(BlockPass& pass)>& run)
 {
   e.State.Counts = EditCounts();
   e.Blocks->Prepare(e.Threads);
@@ -91,8 +92,8 @@ void RunBlockPasses(
       const std::lock_guard<std::mutex> lock(counting);
       opened.Large = e.Components.Large();
     }
-    visit(opened);
-    const EditCounts counts = opened.Share.Counts;
+    run(opened);
+    const EditCounts counts = opened.Context.Counts;
     e.Blocks->Close(std::move(opened));
     const std::lock_guard<std::mutex> lock(counting);
     e.State.Counts += counts;
@@ -121,15 +122,15 @@ void RunSweep(Evolution& e)
   e.History.BeginSweep(s.Mesh.NumberOfVertices(), s.EulerCharacteristic);
   ++e.Status.Sweep;
   RunBlockPasses(e, { Monitor::Activity::Iterating, 0., static_cast<double>(iterations) },
-    [&](BlockPass& visit)
+    [&](BlockPass& pass)
     {
-      SurfaceIteration iteration(s, visit, evidence, options.TopologyChanges, e.Threads);
+      SurfaceIteration iteration(s, pass, evidence, options.TopologyChanges, e.Threads);
       std::vector<HistoryRow> rows;
       for (int i = 0; i < iterations; ++i)
       {
         rows.push_back(iteration.Run(*e.Motion, SurfaceIteration::Mode::Evolve));
       }
-      swept.Add(visit.Block, rows);
+      swept.Add(pass.Block, rows);
     });
 
   const EditCounts& counts = s.Counts;
@@ -152,12 +153,12 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
   const float smallestMove =
     s.Mesh.NumberOfVertices() < LargeSurface ? SmallestMove : SmallestMoveOfLarge;
   RunBlockPasses(e, sweep,
-    [&](BlockPass& visit)
+    [&](BlockPass& pass)
     {
-      SurfaceIteration iteration(s, visit, e.TheField.get(), false, e.Threads);
+      SurfaceIteration iteration(s, pass, e.TheField.get(), false, e.Threads);
       for (int i = 0; i < iterations; ++i)
       {
-        for (int v = visit.First; v < visit.End(); ++v)
+        for (int v = pass.First; v < pass.End(); ++v)
         {
           s.Disturbed[v] = 0;
         }
@@ -165,10 +166,10 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
         if (mode != SurfaceIteration::Mode::Adapt)
         {
           KeepActiveIfMoving(
-            s, iteration, smallestMove); // Also beyond the block, for the visits to come.
+            s, iteration, smallestMove); // Also outside the block, for later passes.
         }
       }
-      for (int v = visit.First; v < visit.End(); ++v)
+      for (int v = pass.First; v < pass.End(); ++v)
       {
         s.Velocity[v] = Vector();
       }
@@ -177,19 +178,18 @@ void Relax(Evolution& e, SurfaceIteration::Mode mode, int iterations, const Swee
 
 void SplitLongEdges(Evolution& e, Sweep sweep)
 {
-  // Verification relies on it that no edge is longer than the constraints allow. One whose split
-  // would make needles stays, as in an iteration, and what moves it waits: see HasHugeEdge.
+  // Verification requires that no edge is longer than eq. (1) allows. An edge whose split would
+  // create needles stays, and its ends do not move, as in an iteration: see HasHugeEdge().
   sweep.OnlyActive = false;
-  // A block may have too little room for all of them at once, and half of a split edge is split
-  // again.
+  // Repeated, because a block may lack free slots, and halves of split edges may be too long.
   do
   {
     RunBlockPasses(e, sweep,
-      [&e](BlockPass& visit)
+      [&e](BlockPass& pass)
       {
-        Remesher remesher(e.State, nullptr, false, &visit.Share);
-        std::vector<int> vertices(static_cast<std::size_t>(visit.End() - visit.First));
-        std::iota(vertices.begin(), vertices.end(), visit.First);
+        Remesher remesher(e.State, nullptr, false, &pass.Context);
+        std::vector<int> vertices(static_cast<std::size_t>(pass.End() - pass.First));
+        std::iota(vertices.begin(), vertices.end(), pass.First);
         remesher.Split(vertices);
         SurfaceIteration::UpdateChanged(e.State, remesher.TakeChanged());
       });
@@ -213,7 +213,7 @@ SurfaceNumbers NumbersOf(const Evolution& e)
   const int vertices = s.Mesh.NumberOfVertices();
   const double lengths = e.Blocks->SumUp([&s](int v) { return s.EdgeLengthSum[v]; }, e.Threads);
   const std::int64_t edges = NumberOfEdges(vertices, s.EulerCharacteristic);
-  // Each edge is in two sums.
+  // Each edge is counted twice.
   return { vertices, s.EulerCharacteristic, e.Components.NumberOfComponents(),
     edges > 0 ? lengths / (2. * static_cast<double>(edges)) : 0. };
 }
@@ -221,7 +221,7 @@ SurfaceNumbers NumbersOf(const Evolution& e)
 double AreaOf(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
-  return e.Blocks->SumUp([&mesh](int v) { return AreaShare(mesh, v); }, e.Threads);
+  return e.Blocks->SumUp([&mesh](int v) { return VertexArea(mesh, v); }, e.Threads);
 }
 
 double VolumeOf(const Evolution& e)

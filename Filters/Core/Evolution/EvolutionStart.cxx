@@ -50,21 +50,21 @@ Box BoxOfGrid(const Evolution& e)
 RecoverySurfaces FindParts(
   Evolution& e, PartKind kind, int minimumSize, RecoveryShape shape, double from, double to)
 {
-  const auto look = [&]
+  const auto find = [&]
   {
     return FindMissedParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
       e.ProgressCallbackOf(Monitor::Activity::Recovering, from, to));
   };
-  RecoverySurfaces cover = look();
-  if (cover.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
+  RecoverySurfaces recovery = find();
+  if (recovery.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
   {
-    DivideNear(e, cover.Boundary); // Else nothing that is near would be clear of it.
-    cover = look();
+    DivideNear(e, recovery.Boundary); // Otherwise there is no room for near recovery surfaces.
+    recovery = find();
   }
-  return cover;
+  return recovery;
 }
 
-/** Adds a cover, or, where it intersects something, what is free of that of a safe one. */
+/** Add recovery surfaces. Intersecting components are replaced by those of RecoveryShape::Safe. */
 template <typename MakeSafe>
 void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
 {
@@ -79,11 +79,11 @@ void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
   ++e.Unchecked;
 }
 
-/** Encloses what the surface has lost. @param isStart all of the object, however small its parts */
+/** Recover missed parts. @param isStart start with all parts of the object, of any size */
 void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
-  // Without an isopotential there is no object's side to look for.
+  // Without an iso-value the object is undefined.
   if (!options.Drive().HasObject && !isStart)
   {
     return;
@@ -111,10 +111,10 @@ void Recover(Evolution& e, bool isStart = false)
   e.Boundary.Add(cavities.Boundary);
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
-    const RecoverySurfaces& cover = kind == PartKind::Object ? objects : cavities;
-    if (recovers && cover.Enclosed > 0)
+    const RecoverySurfaces& recovery = kind == PartKind::Object ? objects : cavities;
+    if (recovers && recovery.Enclosed > 0)
     {
-      Enclose(e, cover.Surface,
+      Enclose(e, recovery.Surface,
         [&] { return FindParts(e, kind, size, RecoveryShape::Safe, 1., 1.).Surface; });
     }
   }
@@ -176,19 +176,19 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
 }
 
-void Divide(Evolution& e, const ConvergedSurface& rest)
+void Divide(Evolution& e, const ConvergedSurface& converged)
 {
-  e.Unchecked = rest.Unchecked;
-  const double coarse = rest.Delta;
+  e.Unchecked = converged.Unchecked;
+  const double coarse = converged.Delta;
   Enter(e);
-  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
-  // the mesh's, sqrt 3.
+  // The number of divisions that brings delta nearest to the new one: 1 for a pyramid factor of
+  // sqrt 3.
   const int divisions = static_cast<int>(std::lround(
     std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
-  // After each of these steps the surface is one to hand over.
+  // After each of these steps the surface is a valid result.
   const bool isGraded = e.Task.Grading.IsRequested();
-  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
-  // the image the field is that of the level before.
+  // Parts that are too thin for the undivided mesh vanish in a descent, and must be recovered.
+  // Outside the image the field is that of the coarser level.
   const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverMissedParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {
@@ -250,21 +250,21 @@ void ActivateAll(Evolution& e)
   ForAlive(s.Mesh, e.Threads, [&s](int v) { s.Active[v] = 1; });
 }
 
-bool ReachLevel(Evolution& e, ConvergedSurface& rest)
+bool ReachLevel(Evolution& e, ConvergedSurface& converged)
 {
   if (e.Task.Start)
   {
     Start(e, *e.Task.Start);
     return true;
   }
-  std::swap(e.State.Mesh, rest.Mesh);
-  e.Status.Level = rest.Level;
+  std::swap(e.State.Mesh, converged.Mesh);
+  e.Status.Level = converged.Level;
   if (!e.GoOn(Monitor::Activity::Regularising, 1.))
   {
-    std::swap(e.State.Mesh, rest.Mesh);
+    std::swap(e.State.Mesh, converged.Mesh);
     return false;
   }
-  Divide(e, rest);
+  Divide(e, converged);
   return true;
 }
 }

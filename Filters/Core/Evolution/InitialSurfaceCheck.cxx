@@ -23,32 +23,33 @@ namespace volumic
 {
 namespace
 {
-/** Points in a cell of the grid from which on searches in it are too slow. */
+/** Number of points in a grid cell above which searches are too slow. */
 constexpr int MaximumPerCell = 60;
-/** What edges may be over their bound by: positions are rounded to float. */
+/** Tolerance of the longest edge for positions rounded to float. */
 constexpr double Rounding = 1.0001;
-/** Pitches of the lattices that are tried, in delta, the coarsest first. */
+/** Pitches of the remeshing lattices in delta, in the order of the attempts. */
 constexpr float Pitches[] = { 1.1f, 0.9f, 0.7f };
-/** That of large surfaces, for the sake of time. */
+/** Pitch for large surfaces, which is faster. */
 constexpr float CoarsePitch = 1.6f;
-/** Edges of the remeshed surface: shorter ones are collapsed, longer ones halved; in delta. */
+/** Edge lengths of the remeshed surface, in delta: shorter ones are collapsed, longer ones split.
+ */
 constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
-/** Share of its volume that each component must keep in these collapses. */
+/** Fraction of its volume that each component must keep in these collapses. */
 constexpr double KeptByCollapses = 0.9;
-/** Area from which on a surface is large, in delta^2. */
+/** Smallest area of a large surface, in delta^2. */
 constexpr double LargeArea = 100000.;
-/** Share of the volume that the remeshed surface must still have. */
+/** Fraction of the volume that the remeshed surface must keep. */
 constexpr double LeastShareOfVolume = 0.5;
 /**
- * Rounds of edits that bring the edges within their bounds; they end early with less than one
- * split or collapse for so many vertices.
+ * Rounds of edits until edge lengths are legal. They end early at less than one split or collapse
+ * per this number of vertices.
  */
 constexpr int MaximumNumberOfRounds = 40;
-/** Iterations of a round. */
+/** Iterations per round. */
 constexpr int AdaptingPasses = 1;
 constexpr int VerticesPerEdit = 1000;
-/** Of the whole start, for the progress; the rest are the rounds. */
+/** Fraction of remeshing in the progress of the start; the rest are the rounds. */
 constexpr double ShareOfRemeshing = 0.5;
 
 struct EdgeLengths
@@ -77,25 +78,25 @@ EdgeLengths LengthsOf(const IndexedSurface& surface)
 IndexedSurface WithoutUnusedPoints(const IndexedSurface& surface)
 {
   IndexedSurface result;
-  LargeVector<int> place(surface.Points.size(), -1);
+  LargeVector<int> newIndex(surface.Points.size(), -1);
   result.Triangles.reserve(surface.Triangles.size());
   for (Triangle t : surface.Triangles)
   {
     for (int& corner : t)
     {
-      if (place[corner] < 0)
+      if (newIndex[corner] < 0)
       {
-        place[corner] = static_cast<int>(result.Points.size());
+        newIndex[corner] = static_cast<int>(result.Points.size());
         result.Points.push_back(surface.Points[corner]);
       }
-      corner = place[corner];
+      corner = newIndex[corner];
     }
     result.Triangles.push_back(t);
   }
   return result;
 }
 
-/** Whether no point has more neighbours than a ring can take. */
+/** Return whether each point has at most the neighbours that fit in a ring. */
 bool FitsRings(const IndexedSurface& surface)
 {
   LargeVector<int> valence(surface.Points.size(), 0);
@@ -112,10 +113,10 @@ bool FitsRings(const IndexedSurface& surface)
   return true;
 }
 
-/** Whether some cell of the size of a triangle has so many points that a search is too slow. */
+/** Return whether a cell of triangle size has too many points for fast searches. */
 bool IsTooDense(const IndexedSurface& surface, double delta)
 {
-  const double cell = SizingField::ReachInDelta * delta;
+  const double cell = SizingField::SearchRadiusInDelta * delta;
   std::unordered_map<std::uint64_t, int> count;
   for (const Point& p : surface.Points)
   {
@@ -163,7 +164,7 @@ std::vector<double> VolumesOf(const IndexedSurface& surface)
   return volumes;
 }
 
-/** Brings most edges within their bounds, unless small components or intersections forbid it. */
+/** Make most edge lengths legal, unless this deletes small components or creates intersections. */
 IndexedSurface WithFewerEdges(const IndexedSurface& surface, float delta, Executor& executor)
 {
   IndexedSurface result =
@@ -177,8 +178,8 @@ IndexedSurface WithFewerEdges(const IndexedSurface& surface, float delta, Execut
 
 IndexedSurface Remesh(Evolution& e, const IndexedSurface& surface)
 {
-  // What is thin, or thins out to an edge, may be torn on one lattice and not on another: take the
-  // mesh that has the components and tunnels of what was given, or else the nearest to it.
+  // Thin parts may break on one lattice but not on another. Take the mesh with the same components
+  // and genus as the input, or else the nearest one.
   const float delta = e.State.Sizing.OfLevel();
   const Topology requested = Topology::Of(surface);
   const bool isLarge = requested.Area > LargeArea * delta * delta;
@@ -221,7 +222,7 @@ void Begin(Evolution& e, const IndexedSurface& surface)
 
 void Adapt(Evolution& e)
 {
-  // The verified displacements and edits of an iteration, until the lengths are legal.
+  // Uses the verified displacements and edits of an iteration until edge lengths are legal.
   for (int round = 0; round < MaximumNumberOfRounds && !e.Stopped; ++round)
   {
     const auto shareAt = [](int done)
@@ -245,9 +246,8 @@ void Adapt(Evolution& e)
 void TakeGiven(Evolution& e, const IndexedSurface& given)
 {
   const IndexedSurface surface = WithoutUnusedPoints(given);
-  // The edits of an iteration bring a mesh that is near to the constraints within them. They need
-  // edges that are not too long and rings with room. Long edges, slivers and fans are remeshed
-  // first.
+  // Edits of an iteration suffice for a mesh near the constraints, without very long edges and full
+  // rings. Long edges, slivers and fans are remeshed first.
   const SurfaceState& s = e.State;
   const float delta = s.Sizing.OfLevel();
   const EdgeLengths lengths = LengthsOf(surface);
@@ -261,7 +261,7 @@ void TakeGiven(Evolution& e, const IndexedSurface& given)
       {
         Adapt(e);
       }
-      // Edits of what does not intersect itself are verified.
+      // Edits are verified for meshes without intersections only.
       if (e.Stopped || IsSound(s.Mesh.ToIndexed(), delta))
       {
         return;
@@ -278,7 +278,7 @@ void TakeRemeshed(Evolution& e, const IndexedSurface& surface)
   const IndexedSurface fine = Remesh(e, surface);
   if (!e.Stopped)
   {
-    // Of what is thinner than the lattice only shreds are left.
+    // Parts thinner than the lattice leave fragments only.
     const double share = ComputeFeatures(fine).Volume / ComputeFeatures(surface).Volume;
     if (!(share > LeastShareOfVolume))
     {

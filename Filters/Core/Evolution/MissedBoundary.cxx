@@ -13,18 +13,18 @@ namespace volumic
 {
 namespace
 {
-/** Of a smooth surface of no preferred direction: the faces of its voxels over its own area. */
+/** Mean ratio of the voxel faces of a smooth surface to its area, over all directions. */
 constexpr double FacesOverArea = 1.5;
-/** A part is missed where the surface lacks more than this share of its boundary. */
+/** A part is missed if the surface lacks more than this fraction of its boundary. */
 constexpr double MissedShare = 0.5;
-/** Patches that one thread looks at at a time. */
+/** Patches per span of a parallel loop. */
 constexpr std::size_t PatchSpan = 256;
 }
 
 namespace
 {
-/** Area of the faces that a voxel of a part has towards the other side. */
-double BoundaryOf(const std::array<int, 3>& place, const Field& field, bool isObject)
+/** Return the area of the faces of a voxel between object and background. */
+double BoundaryOf(const std::array<int, 3>& voxel, const Field& field, bool isObject)
 {
   const LevelImage& image = field.Image();
   double area = 0.;
@@ -33,7 +33,7 @@ double BoundaryOf(const std::array<int, 3>& place, const Field& field, bool isOb
     const double face = image.Step[(axis + 1) % 3] * image.Step[(axis + 2) % 3];
     for (const int side : { -1, 1 })
     {
-      std::array<int, 3> next = place;
+      std::array<int, 3> next = voxel;
       next[axis] += side;
       const bool isOutside = next[axis] < 0 || next[axis] >= image.Size[axis];
       const bool isOther =
@@ -57,10 +57,10 @@ void MissedBoundary::Add(
       for (std::size_t r = begin; r < end; ++r)
       {
         const VoxelRun& run = missed.Runs[r];
-        std::array<int, 3> place = numbers.IjkOf(run.First);
-        for (int i = 0; i < run.Length; ++i, ++place[0])
+        std::array<int, 3> voxel = numbers.IjkOf(run.First);
+        for (int i = 0; i < run.Length; ++i, ++voxel[0])
         {
-          const double area = BoundaryOf(place, field, kind == PartKind::Object);
+          const double area = BoundaryOf(voxel, field, kind == PartKind::Object);
           if (area > 0.)
           {
             spans[span].push_back(
@@ -106,10 +106,10 @@ std::vector<std::uint8_t> MissedBoundary::AreNear(
       for (std::size_t i = begin; i < end; ++i)
       {
         const std::array<int, 3> index = numbers.IjkOf(this->Patches[i].Voxel);
-        const Vector place(static_cast<float>(index[0] * image.Step[0]),
+        const Vector position(static_cast<float>(index[0] * image.Step[0]),
           static_cast<float>(index[1] * image.Step[1]),
           static_cast<float>(index[2] * image.Step[2]));
-        areNear[i] = state.Grid.HasWithin(place, reach, state.Mesh.Position);
+        areNear[i] = state.Grid.HasWithin(position, reach, state.Mesh.Position);
       }
     });
   return areNear;

@@ -14,25 +14,25 @@
 namespace volumic
 {
 /**
- * The boundary of the parts that a surface has lost, kept from when they were found, so that it can
- * be told later what of it the surface still misses. Voxels that were not lost cost nothing.
+ * Boundary of the missed parts, kept from their detection, to measure later how much of it the
+ * surface still misses. The cost depends on the number of missed voxels only.
  */
 class MissedBoundary
 {
 public:
-  /** Takes the boundary of lost parts: the faces of their voxels towards the other side. */
+  /** Add the boundary of missed parts: the voxel faces between object and background. */
   void Add(const MissedVoxels& missed, const Field& field, PartKind kind, Executor& executor);
   void Add(const MissedBoundary& other);
 
   struct Missing
   {
-    int Parts = 0;     ///< Those of which the surface misses more than half of the boundary.
-    double Share = 0.; ///< Area of all the boundary that is missed, over that and the surface's.
+    int Parts = 0;     ///< parts with more than half of their boundary missed
+    double Share = 0.; ///< missed area, relative to the sum of missed and surface area
   };
-  /** Finds what has no vertex of the surface, of this area, within NearUnits. Areas: workspace. */
+  /** Measure the boundary without a vertex of the surface within NearUnits. */
   Missing MissedBy(
     const SurfaceState& state, double surfaceArea, const Field& field, Executor& executor) const;
-  /** Those that have faces of the boundary. */
+  /** Return the voxels with faces of the boundary. */
   std::vector<std::int64_t> Voxels() const;
 
 private:
@@ -42,7 +42,7 @@ private:
     float Area;
     int Part;
   };
-  /** Whether each of the patches has a vertex near. */
+  /** Return for each patch whether a vertex is near. */
   std::vector<std::uint8_t> AreNear(
     const SurfaceState& state, const Field& field, Executor& executor) const;
 

@@ -22,13 +22,13 @@ namespace volumic
 {
 namespace
 {
-/** The longest voxel that is looked at by its middle alone, in units of the level. */
+/** Longest voxel with a single sample at its centre, in units of the level. */
 constexpr double LongestSampled = 1.5;
-/** Shares of the whole work that are done after its steps, as the questions tell them. */
+/** Progress after each step. */
 constexpr double AfterMissed = 0.7;
 constexpr double AfterDistances = 0.9;
 
-/** The places that stand for a voxel. */
+/** Sample points of a voxel. */
 class VoxelSamples
 {
 public:
@@ -42,48 +42,49 @@ public:
   }
 
   /**
-   * Calls visit(point) for the middle of a voxel, or, where it is longer than LongestSampled along
-   * an axis, for the middles of the fewest equal boxes of it that are not.
+   * Call visit(point) for the centre of a voxel, or for the centres of equal boxes of it with edges
+   * of at most LongestSampled.
    */
   template <typename Visit>
   void VisitAll(const std::array<int, 3>& voxel, const Visit& visit) const
   {
-    const auto place = [&](int axis, int sample)
+    const auto coordinate = [&](int axis, int sample)
     { return this->Step[axis] * (voxel[axis] + (sample + 0.5) / this->Samples[axis] - 0.5); };
     VoxelBox::Of(this->Samples)
       .ForVoxels(
         [&](int a, int b, int c) {
-          visit(Point{ place(0, a), place(1, b), place(2, c) });
+          visit(Point{ coordinate(0, a), coordinate(1, b), coordinate(2, c) });
         });
   }
 
 private:
   std::array<double, 3> Step;
-  std::array<int, 3> Samples; ///< Of a voxel along each axis.
+  std::array<int, 3> Samples; ///< per voxel, along each axis
 };
 
-/** Distance of the points of the cover's lattice, in delta. */
+/** Pitch of the recovery lattice, in delta. */
 constexpr double Pitch = 1.6;
-/** Lengths of the cover's edges, in delta: shorter ones are collapsed, longer ones halved. */
+/** Edge lengths of recovery surfaces, in delta: shorter ones are collapsed, longer ones split. */
 constexpr float ShortestEdge = 1.3f;
 constexpr float LongestEdge = 2.45f;
-/** How far the cover lies from a lost voxel at most, and beyond its isopotential, in units. */
+/** Largest distance of a recovery surface from a missed voxel, and from the isosurface, in units.
+ */
 constexpr double Farthest = 1.4;
 constexpr double Margin = 0.5;
-/** A voxel that is so deep inside, in units, is nearest to no point outside. */
+/** Depth of a voxel, in units, from which on it is nearest to no point outside. */
 constexpr double Deep = 1.;
-/** How far it lies at least from the vertices of the surface that is there, in delta. */
+/** Smallest distance from vertices of the existing surface, in delta. */
 constexpr float Clear = 1.9f;
 
-/** Two triangles that intersect, one of them about v, have corners nearer than this. */
+/** Intersecting triangles, one of them with corner v, have corners nearer than this. */
 float ReachAbout(const SurfaceState& state, int v)
 {
-  const float least = state.Sizing.SmallestReach();
+  const float least = state.Sizing.SmallestSearchRadius();
   if (!state.Sizing.IsGraded())
   {
     return least;
   }
-  // That of a surface whose longest edges are those of the faces about it.
+  // The reach for the longest edges of the faces around it.
   const SurfaceMesh& mesh = state.Mesh;
   const Ring& ring = mesh.Rings[v];
   float squared = 0.f;
@@ -93,11 +94,12 @@ float ReachAbout(const SurfaceState& state, int v)
     squared = std::max({ squared, SquaredDistance(mesh.Position[v], p),
       SquaredDistance(p, mesh.Position[ring.Next(i)]) });
   }
-  return std::max(
-    least, std::sqrt(squared) * (SizingField::ReachInDelta / SizingField::LongestEdgeInDelta));
+  return std::max(least,
+    std::sqrt(squared) * (SizingField::SearchRadiusInDelta / SizingField::LongestEdgeInDelta));
 }
 
-/** The cover of lost voxels: where the distance to the nearest one, less a radius, is zero. */
+/** Recovery surface of missed voxels: the zero set of the distance to the nearest one, minus a
+ * radius. */
 class RecoverySurfaceMaker
 {
 public:
@@ -108,9 +110,9 @@ public:
   {
   }
 
-  /** @param covered how many parts it has @return empty where it is asked to stop */
+  /** @param covered number of enclosed parts @return empty if cancelled */
   IndexedSurface Make(
-    RecoveryShape shape, Executor& executor, int& covered, const ProgressCallback& goOn)
+    RecoveryShape shape, Executor& executor, int& enclosed, const ProgressCallback& goOn)
   {
     const auto layers = static_cast<std::size_t>(this->Lattice.NumberOfLayers());
     for (std::size_t first = 0; first < layers; first += LayersPerBatch)
@@ -127,8 +129,9 @@ public:
         return {};
       }
     }
-    const auto isClear = [this](const Point& place) { return this->NearestRoom(place) > 0.f; };
-    covered = this->TakeSmallParts(isClear);
+    const auto isClear = [this](const Point& position)
+    { return this->NearestRoom(position) > 0.f; };
+    enclosed = this->TakeSmallParts(isClear);
     this->Lattice.MakeWellComposed(isClear, executor);
     const float delta = this->State.Sizing.OfLevel();
     const bool isEven = shape == RecoveryShape::Even;
@@ -137,10 +140,10 @@ public:
   }
 
 private:
-  /** Layers of bricks between two questions whether to go on. */
+  /** Layers of bricks between two calls of the progress callback. */
   static constexpr std::size_t LayersPerBatch = 16;
 
-  /** Calls visit(voxel, part) for those of some runs. */
+  /** Call visit(voxel, part) for the voxels of some runs. */
   template <typename Visitor>
   void ForVoxels(std::size_t begin, std::size_t end, const Visitor& visit) const
   {
@@ -169,7 +172,7 @@ private:
     return box;
   }
 
-  /** The runs whose voxels may be as near to a layer along z. */
+  /** Return the runs within reach of a layer along z. */
   std::array<std::size_t, 2> RunsNear(double low, double high) const
   {
     const double step = this->TheField.Image().Step[2];
@@ -185,14 +188,14 @@ private:
     return { firstOf(low - step), firstOf(high + 2. * step) };
   }
 
-  /** Writes the distances of the points in a layer of bricks. */
+  /** Compute the distances of the points in a layer of bricks. */
   void Measure(int layer)
   {
     const int firstLayer = layer * DistanceLattice::BrickSide;
     const int endLayer = std::min(firstLayer + DistanceLattice::BrickSide, this->Lattice.Size()[2]);
     const double reach = Farthest * this->Unit + this->Lattice.Pitch();
-    const auto [begin, end] = this->RunsNear(this->Lattice.IjkOf(0, 0, firstLayer)[2] - reach,
-      this->Lattice.IjkOf(0, 0, endLayer)[2] + reach);
+    const auto [begin, end] = this->RunsNear(this->Lattice.PositionOf(0, 0, firstLayer)[2] - reach,
+      this->Lattice.PositionOf(0, 0, endLayer)[2] + reach);
     const double slope = this->TheField.TypicalSlope();
     this->ForVoxels(begin, end,
       [&](const std::array<int, 3>& voxel, int)
@@ -215,7 +218,7 @@ private:
     {
       for (int j = this->Lattice.FirstFrom(centre[1] - far, 1); j < endJ; ++j)
       {
-        const Point row = this->Lattice.IjkOf(0, j, k);
+        const Point row = this->Lattice.PositionOf(0, j, k);
         const double beside =
           (row[1] - centre[1]) * (row[1] - centre[1]) + (row[2] - centre[2]) * (row[2] - centre[2]);
         if (beside >= far * far)
@@ -235,25 +238,26 @@ private:
     }
   }
 
-  /** How much further from the surface that is there a place is than the cover may be. */
+  /** Return the distance of a position from the existing surface, minus the smallest allowed one.
+   */
   float NearestRoom(const Point& p) const
   {
-    const Vector place(
+    const Vector position(
       static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2]));
     const SizingField& sizing = this->State.Sizing;
     const float delta = sizing.OfLevel();
-    const float more = Clear * delta - sizing.SmallestReach();
+    const float more = Clear * delta - sizing.SmallestSearchRadius();
     float room = static_cast<float>(0.5 * this->Lattice.Pitch());
-    this->State.Grid.Visit(place, sizing.LargestReach() + more + room,
+    this->State.Grid.Visit(position, sizing.LargestSearchRadius() + more + room,
       [&](int v)
       {
-        const float far = Length(place - this->State.Mesh.Position[v]);
+        const float far = Length(position - this->State.Mesh.Position[v]);
         room = std::min(room, far - ReachAbout(this->State, v) - more);
       });
     return room;
   }
 
-  /** Has distances be at least what keeps the cover clear of the surface that is there. */
+  /** Clamp distances to keep the recovery surface clear of the existing surface. */
   void KeepClear(int layer)
   {
     const float far = static_cast<float>(0.9 * this->Lattice.Pitch());
@@ -262,17 +266,17 @@ private:
       {
         if (distance < far)
         {
-          distance = std::max(distance, -this->NearestRoom(this->Lattice.IjkOf(p[0], p[1], p[2])));
+          distance =
+            std::max(distance, -this->NearestRoom(this->Lattice.PositionOf(p[0], p[1], p[2])));
         }
       });
   }
 
-  /** Parts without a point of the lattice get the nearest to one of theirs. @return how many have
-   */
-  int TakeSmallParts(const std::function<bool(const Point& place)>& isClear)
+  /** Give parts without a lattice point the nearest one. @return number of enclosed parts */
+  int TakeSmallParts(const std::function<bool(const Point& position)>& isClear)
   {
     std::vector<char> isEnclosed(static_cast<std::size_t>(this->Missed.Parts), 0);
-    const auto forPlaces = [&](const auto& visit)
+    const auto forPoints = [&](const auto& visit)
     {
       this->ForVoxels(0, this->Missed.Runs.size(),
         [&](const std::array<int, 3>& voxel, int part)
@@ -285,12 +289,12 @@ private:
           }
         });
     };
-    forPlaces([this](const LatticePoint& p, char& has)
+    forPoints([this](const LatticePoint& p, char& has)
       { has |= this->Lattice.IsInside(p[0], p[1], p[2]) ? 1 : 0; });
-    forPlaces(
+    forPoints(
       [&](const LatticePoint& p, char& has)
       {
-        if (isClear(this->Lattice.IjkOf(p[0], p[1], p[2])))
+        if (isClear(this->Lattice.PositionOf(p[0], p[1], p[2])))
         {
           this->Lattice.Write(p[0], p[1], p[2]) = -0.5f * static_cast<float>(Margin * this->Unit);
           has = 1;

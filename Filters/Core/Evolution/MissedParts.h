@@ -12,33 +12,32 @@ namespace volumic
 {
 enum class RecoveryShape
 {
-  Even, ///< With even triangles; that it does not intersect itself must be asked.
-  Safe  ///< Free of intersections; edges may be shorter than eq. (1) allows.
+  Even, ///< well-shaped triangles; may intersect itself
+  Safe  ///< free of intersections; edges may be shorter than eq. (1) allows
 };
 
-/** Result of FindMissedParts. */
+/** Result of FindMissedParts(). */
 struct RecoverySurfaces
 {
-  int Found = 0;           ///< Parts that the surface has lost.
-  int Enclosed = 0;        ///< How many of them the surface below encloses, at least partly.
-  IndexedSurface Surface;  ///< Closed, manifold, inward for cavities; workspace.
-  MissedBoundary Boundary; ///< The boundary of all that were found.
-  bool IsStopped = false;  ///< The answer was to stop: nothing is told, there is no surface.
+  int Found = 0;           ///< number of missed parts
+  int Enclosed = 0;        ///< parts that Surface encloses, at least partly
+  IndexedSurface Surface;  ///< closed, manifold; oriented inward for cavities
+  MissedBoundary Boundary; ///< of all missed parts
+  bool IsStopped = false;  ///< cancelled: there is no result
 };
 
 /**
- * Looks for what coarser levels have lost (Documentation/differences.md): connected sets of at
- * least `minimumSize` voxels on the object's side outside the surface, or on the other side
- * inside it, all farther than two units of the level from any vertex; and encloses them with a new
- * surface, which then shrinks onto them as the first one did onto the object.
+ * Find the parts that coarser levels have missed (Documentation/differences.md), and create
+ * recovery surfaces around them. Missed parts are connected sets of at least `minimumSize` object
+ * voxels outside the surface (or background voxels inside), all farther than two units from any
+ * vertex.
  *
- * It lies about .4 voxel beyond the isopotential, and keeps clear of the surface as it is
- * (DistanceLattice), with edges that respect eq. (1). Seeds inside the parts, as the paper starts
- * from, would have to grow through places that are too thin for them, and merge with holes left
- * between them.
+ * Recovery surfaces lie about 0.4 voxel outside the isosurface, with a clearance to the existing
+ * surface (DistanceLattice). Edges respect eq. (1). Seeds inside the parts, as in the paper, cannot
+ * grow through thin regions, and leave holes where they merge.
  *
- * Inside is found by parity along rows of voxels, so the cost is O(voxels + triangles). The grid
- * of the state must be up to date, and no edge longer than 2.5 delta.
+ * The cost is O(voxels + triangles), by parity along rows of voxels. The grid of the state must be
+ * up to date, and no edge longer than 2.5 delta.
  */
 RecoverySurfaces FindMissedParts(const SurfaceState& state, const Field& field, PartKind kind,
   int minimumSize, RecoveryShape shape, Executor& executor,

@@ -16,9 +16,9 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
+/** Vertices per span of a parallel loop. */
 constexpr std::size_t VertexSpan = 16384;
-/** Faces so near to a layer, in layers, are taken to cross it. */
+/** Faces within this distance of a layer, in layers, count as crossing. */
 constexpr double Margin = 0.01;
 
 /** Slabs [Begin, End). */
@@ -28,7 +28,7 @@ struct SlabRange
   int End = 0;
 };
 
-/** Finds the slabs that a vertex matters in. */
+/** Find the slabs that a vertex affects. */
 class SlabFinder
 {
 public:
@@ -40,15 +40,15 @@ public:
 
   SlabRange SlabsOf(int v) const
   {
-    const double place = this->Mesh.Position[v].Z * this->Inverse;
-    double low = place - std::max(this->Reach, Margin);
-    double high = place + std::max(this->Reach, Margin);
+    const double position = this->Mesh.Position[v].Z * this->Inverse;
+    double low = position - std::max(this->Reach, Margin);
+    double high = position + std::max(this->Reach, Margin);
     const Ring& ring = this->Mesh.Rings[v];
     for (int i = 0; i < ring.Count; ++i)
     {
       if (!this->Mesh.IsAlive(ring.Item[i]))
       {
-        continue; // At the rim of what is here of the surface.
+        continue; // At a boundary of the open mesh.
       }
       const double other = this->Mesh.Position[ring.Item[i]].Z * this->Inverse;
       low = std::min(low, other - Margin);
@@ -66,29 +66,28 @@ public:
 private:
   const SurfaceMesh& Mesh;
   double Inverse;
-  int Last; ///< Layer of the image.
+  int Last; ///< last layer of the image
   int Layers;
-  double Reach; ///< In layers.
+  double Reach; ///< in layers
 };
 
 /**
- * For each slab of layers of an image the vertices that matter there: those less than a reach from
- * one of its layers along z, and those of whose faces one may cross a layer. A vertex may matter in
- * several slabs.
+ * Vertices that affect each slab of layers: those within reach of a layer along z, and those with a
+ * face that crosses a layer. A vertex may affect several slabs.
  */
 class VerticesOfSlabs
 {
 public:
-  /** @param reach workspace */
+  /** @param reach in the computational space */
   VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& image, int layersOfSlab, double reach,
     Executor& executor);
 
-  /** Those of a slab, by index. */
+  /** Return the vertices of a slab. */
   const int* Begin(std::size_t slab) const { return this->Vertices.data() + this->First[slab]; }
   std::size_t Count(std::size_t slab) const { return this->First[slab + 1] - this->First[slab]; }
 
 private:
-  std::vector<std::size_t> First; ///< Of each slab, and the end of the last.
+  std::vector<std::size_t> First; ///< of each slab, and the end of the last one
   LargeVector<int> Vertices;
 };
 
@@ -100,8 +99,8 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
   const std::size_t n = mesh.Rings.size();
   const std::size_t spans = (n + VertexSpan - 1) / VertexSpan;
   LargeVector<SlabRange> ranges;
-  MakeZeroed(ranges, n); // Where there is no vertex it stays so.
-  // Of each span and slab: first how many there are, then where the next one goes.
+  MakeZeroed(ranges, n); // Unused slots stay zero.
+  // By span and slab: first the number of vertices, then the position of the next one.
   std::vector<std::size_t> next(spans * slabs, 0);
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
@@ -145,12 +144,12 @@ VerticesOfSlabs::VerticesOfSlabs(const SurfaceMesh& mesh, const LevelImage& imag
     });
 }
 
-/** Layers of a slab. */
+/** Layers per slab. */
 constexpr int LayersOfSlab = 8;
-/** Slabs between two questions whether to go on. */
+/** Slabs between two calls of the progress callback. */
 constexpr std::size_t SlabsPerBatch = 32;
 
-/** Whether a run lies beside another slab. */
+/** Return whether a run is adjacent to another slab. */
 bool IsAtBorder(const VoxelRun& run, const std::array<int, 3>& size)
 {
   const int k = VoxelNumbers(size).IjkOf(run.First)[2];
@@ -158,7 +157,7 @@ bool IsAtBorder(const VoxelRun& run, const std::array<int, 3>& size)
     (k % LayersOfSlab == LayersOfSlab - 1 && k + 1 < size[2]);
 }
 
-/** Joins runs, which are in order, that lie beside each other. */
+/** Join adjacent runs of a sorted list. */
 void JoinRuns(
   const std::vector<VoxelRun>& runs, const std::array<int, 3>& size, DisjointSets& joined)
 {
@@ -171,7 +170,7 @@ void JoinRuns(
       const std::int64_t first = runs[i].First + shift;
       const std::int64_t end = first + runs[i].Length;
       const std::int64_t otherEnd = runs[j].First + runs[j].Length;
-      // Beyond the last row of a layer lies the first one of the next.
+      // The last row of a layer is followed by the first row of the next one.
       if (first < otherEnd && runs[j].First < end &&
         (axis == 2 || numbers.IjkOf(runs[i].First)[1] + 1 < size[1]))
       {
@@ -183,8 +182,8 @@ void JoinRuns(
 }
 
 /**
- * Numbers the parts of runs, which are in order, by their first voxels, and leaves out those that
- * are too small. @param isOpen of a run whose part may go on elsewhere @return how many there are
+ * Number the parts of sorted runs by their first voxels, and remove those that are too small.
+ * @param isOpen returns whether the part of a run may continue elsewhere @return number of parts
  */
 template <typename IsOpen>
 int NumberParts(std::vector<VoxelRun>& runs, const std::array<int, 3>& size,
@@ -192,8 +191,8 @@ int NumberParts(std::vector<VoxelRun>& runs, const std::array<int, 3>& size,
 {
   DisjointSets joined(runs.size());
   JoinRuns(runs, size, joined);
-  std::vector<std::int64_t> voxels(runs.size(), 0); // By root, the first run of its part.
-  std::vector<char> stays(runs.size(), 0);          // Likewise.
+  std::vector<std::int64_t> voxels(runs.size(), 0); // by root, the first run of its part
+  std::vector<char> stays(runs.size(), 0);          // by root
   for (std::size_t i = 0; i < runs.size(); ++i)
   {
     const int root = joined.Find(static_cast<int>(i));
@@ -231,9 +230,9 @@ MissedVoxels FindMissedVoxels(const SurfaceState& state, const Field& field, Par
   {
     const std::size_t count = std::min(SlabsPerBatch, slabs - first);
     ForSpans(executor, count, 1,
-      [&](std::size_t place, std::size_t, std::size_t)
+      [&](std::size_t n, std::size_t, std::size_t)
       {
-        const std::size_t slab = first + place;
+        const std::size_t slab = first + n;
         const int begin = static_cast<int>(slab) * LayersOfSlab;
         SlabSearch search(state, field, kind, begin, std::min(begin + LayersOfSlab, size[2]));
         search.LeaveSide(vertices.Begin(slab), vertices.Count(slab));

@@ -14,25 +14,24 @@
 namespace volumic
 {
 /**
- * The voxels that a surface has lost: those on the object's side outside of it, or on the other
- * side inside of it, that are farther than NearUnits from any vertex. They are kept as runs; where
- * nothing is lost there is nothing to keep.
+ * Voxels missed by a surface: object voxels outside (or background voxels inside), farther than
+ * NearUnits from any vertex. They are stored as runs.
  */
 struct MissedVoxels
 {
-  /** Runs that one thread looks at at a time. */
+  /** Runs per span of a parallel loop. */
   static constexpr std::size_t RunSpan = 64;
 
-  std::vector<VoxelRun> Runs; ///< In order.
-  int Parts = 0; ///< Voxels that share a face are of one; in the order of their first voxels.
-  bool IsStopped = false; ///< Then nothing is found.
+  std::vector<VoxelRun> Runs; ///< in order
+  int Parts = 0;              ///< face-connected parts, ordered by their first voxels
+  bool IsStopped = false;     ///< cancelled: there is no result
 };
 
 /**
- * The image is searched in slabs of layers: inside is found by parity along rows, so the cost is
- * O(voxels + triangles). The state's edges must not be longer than its sizing allows.
- * @param minimumSize voxels; what has fewer is left out
- * @param goOn        told the share that is done now and then; once it says no nothing is found
+ * Find the voxels missed by a surface, by parity along rows of voxels, in O(voxels + triangles).
+ * Edges must not be longer than the sizing field allows.
+ * @param minimumSize smallest number of voxels of a part
+ * @param goOn        progress callback; there is no result if it returns false
  */
 MissedVoxels FindMissedVoxels(const SurfaceState& state, const Field& field, PartKind kind,
   int minimumSize, Executor& executor, const ProgressCallback& goOn);

@@ -16,13 +16,13 @@ namespace volumic
 {
 namespace
 {
-/** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
+/** Number of iterations at which the estimated progress of a level reaches 1 - 1/e. */
 constexpr double TypicalIterations = 80.;
-/** Share of a level's progress that is left to what comes before and after its iterations. */
+/** Progress of a level before and after its iterations. */
 constexpr double ShareBefore = 0.1;
 constexpr double ShareAfter = 0.2;
 
-/** Of a level, in [0, 1]. */
+/** Return the progress of a level, in [0, 1]. */
 double FractionOf(Monitor::Activity doing, double share, int iterations)
 {
   switch (doing)
@@ -133,29 +133,29 @@ void Evolution::MakeField()
 }
 
 LevelOutcome EvolveOnLevel(
-  const LevelTask& task, ConvergedSurface& rest, Executor& executor, Monitor& monitor)
+  const LevelTask& task, ConvergedSurface& converged, Executor& executor, Monitor& monitor)
 {
-  Evolution e(task, rest.History, executor, monitor);
+  Evolution e(task, converged.History, executor, monitor);
   LevelOutcome outcome;
-  outcome.HasReachedEnd = ReachLevel(e, rest);
-  if (!outcome.HasReachedEnd)
+  outcome.HasReachedLevel = ReachLevel(e, converged);
+  if (!outcome.HasReachedLevel)
   {
     return outcome;
   }
   GiveBackFreeMemory();
   e.Observe();
   outcome.Reason = RunLevel(e);
-  e.State.ForgetMotion(); // So that there is room for the result.
+  e.State.ReleaseMotion(); // Frees memory for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
   outcome.Missed = e.Missed;
   outcome.Verified = e.Verified;
-  rest.Mesh = std::move(e.State.Mesh);
-  rest.Level = task.Level;
-  rest.Delta = e.State.Sizing.OfLevel();
-  rest.Unchecked = e.Unchecked;
+  converged.Mesh = std::move(e.State.Mesh);
+  converged.Level = task.Level;
+  converged.Delta = e.State.Sizing.OfLevel();
+  converged.Unchecked = e.Unchecked;
   return outcome;
 }
 }

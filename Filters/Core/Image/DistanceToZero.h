@@ -8,28 +8,29 @@
 namespace volumic
 {
 /**
- * How far a field's next zero is from a place along a normal, either way, in steps of a twentieth
- * of the furthest that is looked; negative where the field is positive, which is behind the zero.
+ * Return the distance to the nearest zero of a field along a normal, in both directions, negative
+ * inside the object. The search has 20 steps up to `furthest`, which is returned if there is no
+ * zero.
  *
- * @param value   of the field at the place
- * @param valueAt of it at another place
+ * @param value   field at the position
+ * @param valueAt returns the field at another position
  */
 template <typename ValueAt>
 float SignedDistanceToZero(
-  const Vector& place, const Vector& normal, float value, float furthest, const ValueAt& valueAt)
+  const Vector& position, const Vector& normal, float value, float furthest, const ValueAt& valueAt)
 {
   constexpr float steps = 20.f;
   const float step = furthest / steps;
   const float sign = value > 0 ? -1.f : 1.f;
   float before[2] = { value, value };
-  for (float way = step; way < furthest; way += step)
+  for (float distance = step; distance < furthest; distance += step)
   {
     for (int side = 0; side < 2; ++side)
     {
-      const float there = valueAt(place + normal * (side == 0 ? way : -way));
+      const float there = valueAt(position + normal * (side == 0 ? distance : -distance));
       if ((there > 0) != (value > 0))
       {
-        return sign * (way - step * there / (there - before[side]));
+        return sign * (distance - step * there / (there - before[side]));
       }
       before[side] = there;
     }

@@ -13,7 +13,7 @@ namespace
 {
 void CheckReductionFactor(double factor)
 {
-  // Written so that NaN is refused too.
+  // The negation rejects NaN, too.
   if (!(factor > 1.0 && factor < 2.0))
   {
     ThrowInvalidArgument("Reduction Factor is ", factor,
@@ -49,7 +49,7 @@ double UnitOfLevel0(const LevelSize& size, const std::array<double, 3>& spacing)
       unit = distance;
     }
   }
-  return unit > 0.0 ? unit : 1.0; // an image of one voxel has no distances at all
+  return unit > 0.0 ? unit : 1.0; // An image of one voxel has no distances.
 }
 
 bool IsSmallerThan(const LevelSize& level, const LevelSize& level0, std::int64_t minimum)
@@ -80,7 +80,7 @@ int MaximumNumberOfLevels(const LevelSize& size, double reductionFactor)
 {
   CheckReductionFactor(reductionFactor);
   int levels = 1;
-  // Every axis of two voxels or more shrinks, because T > 1.
+  // Each axis of two voxels or more shrinks, because T > 1.
   for (LevelSize level = size; level[0] > 1 || level[1] > 1 || level[2] > 1; ++levels)
   {
     level = ReducedSize(level, reductionFactor);

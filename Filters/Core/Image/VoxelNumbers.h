@@ -9,8 +9,7 @@
 namespace volumic
 {
 /**
- * The numbers of the voxels of an image (linear indices), x fastest, from 0. They are 64 bits wide:
- * an image of 1300 x 1300 x 1300 voxels has more than an int can count.
+ * Linear indices of the voxels of an image, x fastest. 64 bits: 1300^3 voxels exceed an int.
  */
 class VoxelNumbers
 {
@@ -22,7 +21,7 @@ public:
 
   constexpr std::int64_t Count() const { return this->Strides[2] * this->Size[2]; }
 
-  /** What the number grows by from a voxel to the next along the axis. */
+  /** Return the increment from a voxel to the next along an axis. */
   constexpr std::int64_t Stride(int axis) const { return this->Strides[axis]; }
 
   constexpr std::int64_t Of(int i, int j, int k) const

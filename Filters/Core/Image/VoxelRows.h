@@ -18,14 +18,14 @@
 
 namespace volumic
 {
-/** Four voxels of each of four rows: lane r of Column[c] is the value of the c-th of row r. */
+/** Four voxels of four rows: lane r of Column[c] is voxel c of row r. */
 struct VoxelRows
 {
   Lanes Column[4];
 };
 
 #if defined(__SSE2__)
-/** Integers of at most 16 bits: four of each row, as 16 bits; columns 0 and 1, and 2 and 3. */
+/** Four voxels of four rows as 16-bit integers: columns 0 and 1, and 2 and 3. */
 struct RowsOfIntegers
 {
   __m128i Pair[2];
@@ -62,7 +62,7 @@ RowsOfIntegers ReadIntegers(const T* a, const T* b, const T* c, const T* d)
   }
 }
 
-/** One column of 32 bits. */
+/** Return a column as 32-bit integers. */
 template <typename T>
 __m128i ColumnOf(const RowsOfIntegers& rows, int column)
 {
@@ -78,7 +78,7 @@ __m128i ColumnOf(const RowsOfIntegers& rows, int column)
 }
 #endif
 
-/** Reads the four voxels from each of the given ones on. */
+/** Read four voxels from each of the given positions on. */
 template <typename Voxels>
 VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
 {

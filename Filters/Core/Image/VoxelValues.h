@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** Voxels of float, read as they are. */
+/** Float voxels without a base. */
 struct PlainVoxels
 {
   using Stored = float;
@@ -19,7 +19,7 @@ struct PlainVoxels
   float operator[](std::ptrdiff_t i) const { return this->Voxels[i]; }
 };
 
-/** Voxels less a base: the difference in double, rounded to float. */
+/** Voxels minus a base: the difference in double, rounded to float. */
 template <typename T>
 struct DoubleVoxels
 {
@@ -35,10 +35,9 @@ struct DoubleVoxels
 };
 
 /**
- * The same bits without doubles, for integers of at most 16 bits and a base that is a float: such
- * an integer is a float too, and floats are subtracted exactly and rounded once. (The way through
- * double rounds twice, but the first time either to nothing or away from what lies halfway between
- * two floats: that needs bits further down than a base of 24 bits has.)
+ * Integer voxels of at most 16 bits minus a base that is a float. Bit-identical to DoubleVoxels,
+ * but faster: both operands are floats, so the difference is rounded once. The difference in double
+ * is exact or rounded away from the midpoint of two floats, so the second rounding does not matter.
  */
 template <typename T>
 struct SmallIntegerVoxels
@@ -53,22 +52,21 @@ struct SmallIntegerVoxels
 };
 
 /**
- * The voxels of a level in the type that their image has, so that none of them is copied: what is
- * read is float(double(voxel) - base), for all native types; or a float voxel as it is. x fastest;
- * not owned.
+ * View of the voxels of a level in the scalar type of the image, without a copy. Values are
+ * float(double(voxel) - base), or float voxels unchanged. x fastest; not owned.
  */
 class VoxelValues
 {
 public:
   VoxelValues() = default;
 
-  /** As they are; null: no voxels. Meant to convert: a level is often made of floats at hand. */
+  /** View floats; null: no voxels. Converts implicitly. */
   VoxelValues(const float* voxels) : Voxels(voxels) {}
 
-  /** Less a base. */
+  /** View voxels minus a base. */
   template <typename T>
   VoxelValues(const T* voxels, double base)
-    : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false),
+    : Voxels(voxels), Base(base), Scalar(TypeOf<T>()), IsPlain(false),
       IsSmallInteger(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
   {
   }
@@ -76,8 +74,8 @@ public:
   explicit operator bool() const { return this->Voxels != nullptr; }
 
   /**
-   * Calls visit(voxels) with a PlainVoxels, SmallIntegerVoxels or DoubleVoxels: voxels[i] is the value of
-   * the i-th. To be called once per sample or loop, as it looks up the type.
+   * Call visit(voxels) with PlainVoxels, SmallIntegerVoxels or DoubleVoxels: voxels[i] is value i.
+   * Call it once per sample or loop, because it dispatches on the type.
    */
   template <typename Visitor>
   std::invoke_result_t<Visitor, PlainVoxels> Visit(Visitor&& visit) const
@@ -86,7 +84,7 @@ public:
     {
       return visit(PlainVoxels{ static_cast<const float*>(this->Voxels) });
     }
-    switch (this->Held)
+    switch (this->Scalar)
     {
       case Type::SignedChar:
         return this->VisitAsFloat<std::int8_t>(visit);
@@ -111,13 +109,13 @@ public:
     }
   }
 
-  /** One value, where few are wanted. */
+  /** Return one value. Slow in loops. */
   float operator[](std::ptrdiff_t i) const
   {
     return this->Visit([i](const auto& voxels) { return voxels[i]; });
   }
 
-  /** Values [first, first + count). */
+  /** Copy the values [first, first + count). */
   void Copy(std::ptrdiff_t first, std::ptrdiff_t count, float* values) const
   {
     this->Visit(
@@ -131,7 +129,7 @@ public:
   }
 
 private:
-  /** By size and sign: char, long and long long are what they are on the platform. */
+  /** By size and sign, which depend on the platform for char, long and long long. */
   enum class Type : std::uint8_t
   {
     SignedChar,
@@ -168,8 +166,8 @@ private:
   {
     if (this->IsSmallInteger)
     {
-      return visit(
-        SmallIntegerVoxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
+      return visit(SmallIntegerVoxels<T>{
+        static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
     }
     return this->VisitAsDouble<T>(visit);
   }
@@ -181,7 +179,7 @@ private:
 
   const void* Voxels = nullptr;
   double Base = 0.;
-  Type Held = Type::Float;
+  Type Scalar = Type::Float;
   bool IsPlain = true;
   bool IsSmallInteger = false; ///< See SmallIntegerVoxels.
 };

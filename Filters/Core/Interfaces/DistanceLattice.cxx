@@ -15,23 +15,21 @@ namespace volumic
 {
 namespace
 {
-/** Points of the lattice beyond the box on each side. */
-constexpr int Beside = 2;
-constexpr int AddingRounds = 20; ///< After them points only go out, which ends.
-/** Values of what comes in or goes out, in pitches. */
-constexpr float ComesIn = -0.15f;
-constexpr float GoesOut = 0.3f;
-/** What comes in is at most so far from the surface, in pitches. */
-constexpr float FarthestIn = 0.9f;
+constexpr int Margin = 2;        ///< points of the lattice beyond each side of the box
+constexpr int AddingRounds = 20; ///< Later rounds only remove points, which terminates.
+/** Values of added and removed points, in pitches. */
+constexpr float AddedValue = -0.15f;
+constexpr float RemovedValue = 0.3f;
+constexpr float MostAdded = 0.9f; ///< maximum value of a point before it is added, in pitches
 }
 
 DistanceLattice::DistanceLattice(const Bounds& box, double pitch) : Distance(pitch)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Low[axis] = box.Low[axis] - Beside * pitch;
+    this->Low[axis] = box.Low[axis] - Margin * pitch;
     this->Points[axis] =
-      static_cast<int>(std::ceil((box.High[axis] - box.Low[axis]) / pitch)) + 2 * Beside + 1;
+      static_cast<int>(std::ceil((box.High[axis] - box.Low[axis]) / pitch)) + 2 * Margin + 1;
     this->Bricks[axis] = (this->Points[axis] + BrickSide - 1) / BrickSide;
   }
   this->Layers.resize(static_cast<std::size_t>(this->Bricks[2]));
@@ -47,12 +45,12 @@ int DistanceLattice::FirstFrom(double coordinate, int axis) const
   return static_cast<int>(std::clamp(at, 0., static_cast<double>(this->Points[axis])));
 }
 
-LatticePoint DistanceLattice::NearestTo(const Point& place) const
+LatticePoint DistanceLattice::NearestTo(const Point& position) const
 {
   LatticePoint point;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double at = std::round((place[axis] - this->Low[axis]) / this->Distance);
+    const double at = std::round((position[axis] - this->Low[axis]) / this->Distance);
     point[axis] = static_cast<int>(std::clamp(at, 1., this->Points[axis] - 2.));
   }
   return point;
@@ -94,7 +92,7 @@ std::array<float, 8> DistanceLattice::CornersOf(const LatticePoint& cube) const
 }
 
 void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
-  const std::function<bool(const Point& place)>& mayComeIn, std::vector<LatticePoint>& changed)
+  const std::function<bool(const Point& position)>& canAdd, std::vector<LatticePoint>& changed)
 {
   const std::array<float, 8> values = this->CornersOf(cube);
   unsigned inside = 0;
@@ -119,15 +117,15 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
     const float value = values[static_cast<std::size_t>(corner)];
     const bool isWithin = p[0] > 0 && p[1] > 0 && p[2] > 0 && p[0] + 1 < this->Points[0] &&
       p[1] + 1 < this->Points[1] && p[2] + 1 < this->Points[2];
-    if (value >= 0.f && value < FarthestIn * pitch && isWithin &&
+    if (value >= 0.f && value < MostAdded * pitch && isWithin &&
       (best < 0 || value < values[static_cast<std::size_t>(best)]) &&
-      mayComeIn(this->IjkOf(p[0], p[1], p[2])))
+      canAdd(this->PositionOf(p[0], p[1], p[2])))
     {
       best = corner;
     }
   }
-  const bool comesIn = best >= 0;
-  for (int corner = 0; corner < 8 && !comesIn; ++corner)
+  const bool isAdded = best >= 0;
+  for (int corner = 0; corner < 8 && !isAdded; ++corner)
   {
     const float value = values[static_cast<std::size_t>(corner)];
     if (value < 0.f && (best < 0 || value > values[static_cast<std::size_t>(best)]))
@@ -136,7 +134,7 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
     }
   }
   const LatticePoint p = pointAt(best);
-  this->Write(p[0], p[1], p[2]) = (comesIn ? ComesIn : GoesOut) * pitch;
+  this->Write(p[0], p[1], p[2]) = (isAdded ? AddedValue : RemovedValue) * pitch;
   changed.push_back(p);
 }
 
@@ -167,7 +165,7 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 {
   std::vector<LatticePoint> cubes;
   const auto size = static_cast<std::size_t>(this->Points[0]);
-  std::vector<std::uint8_t> low(size * this->Points[1]); // whether points are inside
+  std::vector<std::uint8_t> low(size * this->Points[1]); // 1 if the point is inside
   std::vector<std::uint8_t> high(low.size());
   const auto copy = [this](int k, std::vector<std::uint8_t>& inside)
   {
@@ -200,20 +198,20 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 }
 
 void DistanceLattice::MakeWellComposed(
-  const std::function<bool(const Point& place)>& mayComeIn, Executor& executor)
+  const std::function<bool(const Point& position)>& canAdd, Executor& executor)
 {
-  std::vector<std::vector<LatticePoint>> ofLayers(this->Layers.size());
-  ForSpans(executor, ofLayers.size(), 1,
+  std::vector<std::vector<LatticePoint>> perLayer(this->Layers.size());
+  ForSpans(executor, perLayer.size(), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
-    { ofLayers[layer] = this->FindIllComposed(static_cast<int>(layer)); });
-  std::vector<LatticePoint> cubes = Joined(executor, ofLayers);
+    { perLayer[layer] = this->FindIllComposed(static_cast<int>(layer)); });
+  std::vector<LatticePoint> cubes = Joined(executor, perLayer);
   for (int round = 0; !cubes.empty(); ++round)
   {
     SortUnique(cubes);
     std::vector<LatticePoint> changed;
     for (const LatticePoint& cube : cubes)
     {
-      this->Compose(cube, round < AddingRounds, mayComeIn, changed);
+      this->Compose(cube, round < AddingRounds, canAdd, changed);
     }
     cubes.clear();
     for (const LatticePoint& p : changed)
@@ -226,12 +224,12 @@ void DistanceLattice::MakeWellComposed(
   }
 }
 
-IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
+IndexedSurface DistanceLattice::Boundary(bool hasShortDiagonals, Executor& executor) const
 {
   DualGrid grid;
   grid.Size = this->Points;
-  grid.RankOf = { 1, 0 }; // Of outside, and inside.
-  grid.HasShortDiagonals = isEven;
+  grid.RankOf = { 1, 0 }; // label 0: outside, label 1: inside
+  grid.HasShortDiagonals = hasShortDiagonals;
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int i = 0; i < this->Points[axis]; ++i)
@@ -258,9 +256,10 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
     });
   surface.Triangles.resize(faces.size());
   std::transform(faces.begin(), faces.end(), surface.Triangles.begin(),
-    [](const InterfaceMesh::Face& face) {
+    [](const InterfaceMesh::Face& face)
+    {
       return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] };
-    }); // Seen from outside.
+    }); // Reversed: counter-clockwise seen from outside.
   return surface;
 }
 }

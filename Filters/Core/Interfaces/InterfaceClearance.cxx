@@ -13,7 +13,6 @@ namespace volumic
 {
 namespace
 {
-/** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
 bool Has(const MeshTriangle& face, int v)
@@ -26,7 +25,7 @@ const VectorD& CornerAt(const MeshTriangle& face, int v)
   return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
 }
 
-/** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
+/** Signed dihedral angle between two faces at an edge: cosine and sine, up to a common factor. */
 struct Turn
 {
   double Cosine;
@@ -49,8 +48,8 @@ VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
     face.Vertex);
   const VectorD& from = CornerAt(face, u);
   const VectorD axis = CornerAt(face, v) - from;
-  const VectorD way = face.Corner[at] - from;
-  return way * SquaredLength(axis) - axis * Dot(axis, way);
+  const VectorD toCorner = face.Corner[at] - from;
+  return toCorner * SquaredLength(axis) - axis * Dot(axis, toCorner);
 }
 
 bool HavePassed(
@@ -62,9 +61,9 @@ bool HavePassed(
   {
     return false;
   }
-  constexpr double flat = 3.14159265358979;
+  constexpr double straightAngle = 3.14159265358979;
   return std::abs(std::atan2(from.Sine, from.Cosine)) + std::abs(std::atan2(to.Sine, to.Cosine)) <
-    flat;
+    straightAngle;
 }
 
 float LongestSide(const Box& box)
@@ -102,15 +101,15 @@ bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces)
     {
       ++at;
     }
-    // From the opposite vertex on, the edge is gone along in the one direction or the other.
+    // Direction of the edge in the face, from the opposite vertex on.
     const bool isForward = face.Vertex[(at + 1) % 3] == u;
     const VectorD& from = face.Corner[(at + (isForward ? 1 : 2)) % 3];
     if (turns.empty())
     {
       axis = Normalized(face.Corner[(at + (isForward ? 2 : 1)) % 3] - from);
     }
-    const VectorD way = face.Corner[at] - from;
-    const VectorD across = way - axis * Dot(axis, way);
+    const VectorD toCorner = face.Corner[at] - from;
+    const VectorD across = toCorner - axis * Dot(axis, toCorner);
     if (turns.empty())
     {
       first = across;
@@ -164,7 +163,6 @@ void InterfaceClearance::Reset(Executor& executor)
     });
   this->All = boxes.All;
   this->Reach = 0.5f * boxes.Longest;
-  // A cell is as wide as a box is long in the mean.
   this->Grid.Reset(
     this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(
@@ -278,12 +276,12 @@ bool InterfaceClearance::AreClear(const std::vector<FaceCoordinates>& faces,
     {
       others.push_back(face);
     }
-    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(face)];
+    const InterfaceMesh::Face& existing = this->Mesh.Faces[static_cast<std::size_t>(face)];
     const Box& box = this->BoxOf(face);
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
-      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) && !box.IsApartFrom(boxes[n]) &&
-        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
+      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(existing)) && !box.IsApartFrom(boxes[n]) &&
+        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, existing.Vertex), this->Tolerance))
       {
         return false;
       }
@@ -314,11 +312,11 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
   {
     sheet.Along = Normalized(sheet.Along);
   }
-  const auto look = [](Sheet& sheet, const VectorD& normal)
+  const auto update = [](Sheet& sheet, const VectorD& normal)
   { sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal); };
   for (const FaceCoordinates& face : faces)
   {
-    look(*sheetOf(face), NormalOf(face));
+    update(*sheetOf(face), NormalOf(face));
   }
   for (const int f : near)
   {
@@ -326,7 +324,7 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
     const auto sheet = sheetOf(face);
     if (sheet != sheets.end())
     {
-      look(*sheet, this->Mesh.NormalOf(face));
+      update(*sheet, this->Mesh.NormalOf(face));
     }
     else
     {
@@ -339,11 +337,11 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
 bool InterfaceClearance::PassAny(
   const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced) const
 {
-  std::vector<int> about;
-  const auto stays = [this](const FaceCoordinates& face, int k)
+  std::vector<int> atEdge;
+  const auto isFixed = [this](const FaceCoordinates& face, int k)
   {
-    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
-    return SquaredDistance(face.Corner[k], VectorD(place)) == 0.;
+    const Vector& position = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
+    return SquaredDistance(face.Corner[k], VectorD(position)) == 0.;
   };
   for (const FaceCoordinates& face : faces)
   {
@@ -351,26 +349,26 @@ bool InterfaceClearance::PassAny(
     {
       const int u = face.Vertex[k];
       const int v = face.Vertex[(k + 1) % 3];
-      if (!stays(face, k) || !stays(face, (k + 1) % 3))
+      if (!isFixed(face, k) || !isFixed(face, (k + 1) % 3))
       {
         continue;
       }
-      this->Mesh.FindFaces(u, v, about);
+      this->Mesh.FindFaces(u, v, atEdge);
       const auto isReplaced = [&](int f)
       { return std::find(replaced.begin(), replaced.end(), f) != replaced.end(); };
-      const auto isIt = [&](int f)
+      const auto isPredecessor = [&](int f)
       {
         const InterfaceMesh::Face& old = this->Mesh.Faces[static_cast<std::size_t>(f)];
         return isReplaced(f) && old.Behind == face.Behind && old.Front == face.Front;
       };
-      const auto old = std::find_if(about.begin(), about.end(), isIt);
-      if (old == about.end())
+      const auto old = std::find_if(atEdge.begin(), atEdge.end(), isPredecessor);
+      if (old == atEdge.end())
       {
-        continue; // It is new.
+        continue; // The face has no predecessor at this edge.
       }
       const MeshTriangle before =
         TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(*old)].Vertex);
-      for (const int f : about)
+      for (const int f : atEdge)
       {
         const MeshTriangle other =
           TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
@@ -394,7 +392,7 @@ bool InterfaceClearance::IsAtLine(const FaceCoordinates& face) const
 bool InterfaceClearance::AreInOrderAtLines(
   const std::vector<FaceCoordinates>& faces, const std::vector<int>& others) const
 {
-  std::vector<FaceCoordinates> about;
+  std::vector<FaceCoordinates> atEdge;
   for (const FaceCoordinates& face : faces)
   {
     for (int k = 0; k < 3; ++k)
@@ -406,22 +404,23 @@ bool InterfaceClearance::AreInOrderAtLines(
       {
         continue;
       }
-      about.clear();
-      std::copy_if(faces.begin(), faces.end(), std::back_inserter(about),
+      atEdge.clear();
+      std::copy_if(faces.begin(), faces.end(), std::back_inserter(atEdge),
         [&](const FaceCoordinates& other) { return Has(other, u) && Has(other, v); });
       for (const int other : others)
       {
-        const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
-        if (there.Has(u) && there.Has(v))
+        const InterfaceMesh::Face& existing = this->Mesh.Faces[static_cast<std::size_t>(other)];
+        if (existing.Has(u) && existing.Has(v))
         {
-          about.push_back(FaceCoordinatesOf(this->Mesh, there));
+          atEdge.push_back(FaceCoordinatesOf(this->Mesh, existing));
         }
       }
-      for (FaceCoordinates& placed : about)
+      for (FaceCoordinates& neighbour : atEdge)
       {
-        placed.Front = this->Mesh.IsSide(placed.Front) ? LabelMap::Number(0) : placed.Front;
+        neighbour.Front =
+          this->Mesh.IsSide(neighbour.Front) ? LabelMap::Number(0) : neighbour.Front;
       }
-      if (about.size() > 2 && !AreInOrder(u, v, about))
+      if (atEdge.size() > 2 && !AreInOrder(u, v, atEdge))
       {
         return false;
       }

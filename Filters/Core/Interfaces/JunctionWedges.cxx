@@ -17,7 +17,7 @@ JunctionWedge NarrowestWedgeAt(
     return AcrossEdge(
       TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex), edge[0], edge[1]);
   };
-  // The nearest two of all are neighbours.
+  // The pair with the smallest angle is always a pair of neighbouring faces.
   JunctionWedge narrowest;
   for (std::size_t n = 0; n < faces.size(); ++n)
   {

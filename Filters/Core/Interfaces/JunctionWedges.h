@@ -11,20 +11,18 @@
 
 namespace volumic
 {
-/** What lies between two interfaces that are next to each other about an edge of a junction line.
- */
+/** Dihedral wedge between two neighbouring faces at an edge of a junction line. */
 struct JunctionWedge
 {
   std::array<int, 2> Edge = { -1, -1 };
   std::array<int, 2> Faces = { -1, -1 };
-  double Angle = std::numeric_limits<double>::infinity(); ///< radian
+  double Angle = std::numeric_limits<double>::infinity(); ///< dihedral angle in radians
 };
 
-/** The wedge between the faces at an edge that is the narrowest. */
 JunctionWedge NarrowestWedgeAt(
   const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces);
 
-/** The narrowest wedge of some edges of lines; without an edge where there are none. */
+/** Return the wedge with the smallest dihedral angle at some edges; Edge is -1 if none exist. */
 JunctionWedge NarrowestWedge(
   const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines);
 inline JunctionWedge NarrowestWedge(const InterfaceMesh& mesh)
@@ -32,7 +30,7 @@ inline JunctionWedge NarrowestWedge(const InterfaceMesh& mesh)
   return NarrowestWedge(mesh, mesh.FindLines());
 }
 
-/** Return how many triangles have such edges on all sides: two objects touch there by one alone. */
+/** Return the number of triangles with three edges on lines: the only contact of two objects. */
 int CountContactsOfOneTriangle(
   const InterfaceMesh& mesh, const std::vector<std::array<int, 2>>& lines);
 }

@@ -19,41 +19,38 @@ namespace volumic
 {
 namespace
 {
-/** Triangles and wedges of less are opened, radian: a little more than 20 and 10 degrees. */
+/** Angles of triangles and wedges below which they are opened, in radians (25 and 11 degrees). */
 constexpr double NarrowAngle = 0.44;
 constexpr double NarrowWedge = 0.2;
-/** And gaps of less, in wanted edges. */
+/** Width of gaps below which they are opened, relative to the desired edge length. */
 constexpr double NarrowGap = 0.15;
-/** Of the normals of two triangles of one interface about a vertex that do not face each other. */
+/** Two triangles of one interface at a vertex form no gap if their normals have a larger cosine. */
 constexpr double FlatCosine = 0.5;
-/** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 1024;
-/** The same of gaps, which take longer. */
-constexpr std::size_t GapSpanSize = 64;
-/** Vertices between two questions whether to go on. */
-constexpr std::size_t VerticesPerQuestion = 256;
-/** How often what is narrow is visited. */
+constexpr std::size_t GapSpanSize = 64; ///< smaller, as gaps take longer
+constexpr std::size_t VerticesPerProgressCall = 256;
 constexpr int Rounds = 4;
-/** How far a vertex goes at a time, in its wanted edge, at first and at least. */
+/** First and smallest step of a vertex, relative to its desired edge length. */
 constexpr double LargestStep = 0.15;
 constexpr double SmallestStep = 0.015;
-/** How far it may go, in smallest distances of voxels. */
-constexpr float MostWay = 0.5f;
-/** What an object may win or lose by all moves, as a share of its voxels, or so many of them. */
-constexpr double MostGainShare = 0.001;
+/** Maximum distance of a vertex from its initial position, in the smallest voxel spacing. */
+constexpr float MostMove = 0.5f;
+/** Maximum volume change of an object: a fraction of its volume, or a number of voxels. */
+constexpr double MostGainFraction = 0.001;
 constexpr double MostGain = 2.;
-/** In wanted edges, how far it is moved to see what that does. */
+/** Step of the finite differences, relative to the desired edge length. */
 constexpr float Probe = 1e-3f;
-/** Cosine of the angle by which a step may turn a face. */
+/** Least cosine of the angle by which a step may turn a face. */
 constexpr double LeastTurnCosine = 0.4;
 
-double SquaredLack(double angle, double requested)
+/** Return the square of the relative difference to the requested value; 0 if it is reached. */
+double SquaredDeficit(double value, double requested)
 {
-  const double lack = 1. - angle / requested;
-  return lack > 0. ? lack * lack : 0.;
+  const double deficit = 1. - value / requested;
+  return deficit > 0. ? deficit * deficit : 0.;
 }
 
-/** Whether a plane of one has the other one further away, up to corners that they share. */
+/** Return whether the plane of one triangle has a distance of more than `by` from the other one. */
 bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
 {
   const auto isBeyond = [by](const MeshTriangle& plane, const MeshTriangle& other)
@@ -66,7 +63,7 @@ bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
   return isBeyond(f, g) || isBeyond(g, f);
 }
 
-/** Six times the volume of a tetrahedron. */
+/** Return six times the signed volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
   return Dot(Cross(b - a, c - a), d - a);
@@ -81,18 +78,18 @@ NearDegenerateRegions::NearDegenerateRegions(InterfaceMesh& mesh, const Interfac
 {
 }
 
-void NearDegenerateRegions::Open(Executor& executor, const std::function<bool()>& goOn)
+void NearDegenerateRegions::Open(Executor& executor, const std::function<bool()>& shouldContinue)
 {
   this->Clearance.Reset(executor);
   std::vector<int> vertices = this->FindVertices(executor);
-  for (int round = 0; round < Rounds && !vertices.empty() && goOn(); ++round)
+  for (int round = 0; round < Rounds && !vertices.empty() && shouldContinue(); ++round)
   {
-    // Where nothing has moved nothing more will.
+    // Only vertices of changed faces can be moved in the next round.
     std::vector<int> next;
     std::size_t visited = 0;
     for (const int v : vertices)
     {
-      if (++visited % VerticesPerQuestion == 0 && !goOn())
+      if (++visited % VerticesPerProgressCall == 0 && !shouldContinue())
       {
         return;
       }
@@ -113,9 +110,9 @@ void NearDegenerateRegions::Open(Executor& executor, const std::function<bool()>
 std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
 {
   const LargeVector<InterfaceMesh::Face>& faces = this->Mesh.Faces;
-  // In one sheet there are no gaps, up to the margin, which is less than the cubes' width.
-  const std::vector<int> doubtful =
-    FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Doubtful;
+  // There are no gaps in one sheet, as the margin is smaller than the cubes of FindCrossings().
+  const std::vector<int> candidates =
+    FindCrossings(this->Mesh, NarrowGap * this->Edge, executor).Candidates;
   auto vertices = CollectInSpans<int>(executor, faces.size(), SpanSize,
     [&](std::size_t f, std::vector<int>& some)
     {
@@ -125,13 +122,13 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
         some.insert(some.end(), v.begin(), v.end());
       }
     });
-  const auto atGaps = CollectInSpans<int>(executor, doubtful.size(), GapSpanSize,
+  const auto atGaps = CollectInSpans<int>(executor, candidates.size(), GapSpanSize,
     [&](std::size_t n, std::vector<int>& some)
     {
       std::vector<int> near;
       bool isNarrow = false;
-      this->ForGapsAt(doubtful[n], near, [&](double) { isNarrow = true; }); // Both find it.
-      const std::array<int, 3>& v = faces[static_cast<std::size_t>(doubtful[n])].Vertex;
+      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; }); // found by both
+      const std::array<int, 3>& v = faces[static_cast<std::size_t>(candidates[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
   vertices.insert(vertices.end(), atGaps.begin(), atGaps.end());
@@ -165,11 +162,11 @@ void NearDegenerateRegions::ForGapsAt(int face, std::vector<int>& near, Visitor&
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
     const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
-    const bool isBeside = there.Behind == here.Behind && there.Front == here.Front &&
+    const bool isAdjacent = there.Behind == here.Behind && there.Front == here.Front &&
       (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
-    if (isBeside && CosineOf(normal, NormalOf(facing)) > FlatCosine)
+    if (isAdjacent && CosineOf(normal, NormalOf(facing)) > FlatCosine)
     {
-      continue; // Or it itself. What is narrow there is one of the triangles.
+      continue; // The face itself, or a neighbour without a gap between them.
     }
     if (AreApart(triangle, facing, requested))
     {
@@ -178,7 +175,7 @@ void NearDegenerateRegions::ForGapsAt(int face, std::vector<int>& near, Visitor&
     const double squared = SquaredGapBetween(triangle, facing);
     if (squared < requested * requested)
     {
-      visit(SquaredLack(std::sqrt(squared), requested));
+      visit(SquaredDeficit(std::sqrt(squared), requested));
     }
   }
 }
@@ -192,8 +189,8 @@ double NearDegenerateRegions::NarrownessAt(int v)
     [&](int f)
     {
       const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
-      sum += SquaredLack(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
-      this->ForGapsAt(f, this->Near, [&](double lack) { sum += lack; });
+      sum += SquaredDeficit(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
+      this->ForGapsAt(f, this->Near, [&](double deficit) { sum += deficit; });
       for (int k = 0; k < 3; ++k)
       {
         const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };
@@ -204,7 +201,8 @@ double NearDegenerateRegions::NarrownessAt(int v)
         this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
         if (this->Mesh.IsLine(this->AtEdge))
         {
-          sum += SquaredLack(NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
+          sum +=
+            SquaredDeficit(NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
         }
       }
     });
@@ -221,11 +219,12 @@ double NearDegenerateRegions::NarrownessOfImages()
   return sum;
 }
 
-void NearDegenerateRegions::Place(const Vector& target)
+void NearDegenerateRegions::MoveTo(const Vector& target)
 {
   for (const std::array<int, 2>& image : this->Images)
   {
-    this->Mesh.Position[static_cast<std::size_t>(image[0])] = this->Mesh.OnSides(image[0], target);
+    this->Mesh.Position[static_cast<std::size_t>(image[0])] =
+      this->Mesh.ProjectToSides(image[0], target);
   }
 }
 
@@ -237,30 +236,30 @@ bool NearDegenerateRegions::TryMove(int v)
   {
     return false;
   }
-  const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
+  const Vector position = this->Mesh.Position[static_cast<std::size_t>(v)];
   const float edge = static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
-  const auto differenceAlong = [&](const Vector& way)
+  const auto differenceAlong = [&](const Vector& offset)
   {
-    this->Place(place + way);
+    this->MoveTo(position + offset);
     const double ahead = this->NarrownessOfImages();
-    this->Place(place - way);
+    this->MoveTo(position - offset);
     const double behind = this->NarrownessOfImages();
     return static_cast<float>(behind - ahead);
   };
   const float probe = Probe * edge;
   const Vector slope(differenceAlong(Vector(probe, 0.f, 0.f)),
     differenceAlong(Vector(0.f, probe, 0.f)), differenceAlong(Vector(0.f, 0.f, probe)));
-  this->Place(place);
+  this->MoveTo(position);
   if (!(SquaredLength(slope) > 0.f))
   {
     return false;
   }
   for (double step = LargestStep; step > SmallestStep; step *= 0.5)
   {
-    const Vector target = place + Normalized(slope) * (static_cast<float>(step) * edge);
-    this->Place(target);
+    const Vector target = position + Normalized(slope) * (static_cast<float>(step) * edge);
+    this->MoveTo(target);
     const double after = this->NarrownessOfImages();
-    this->Place(place);
+    this->MoveTo(position);
     if (after < before && this->TryMoveTo(v, target))
     {
       return true;
@@ -271,8 +270,8 @@ bool NearDegenerateRegions::TryMove(int v)
 
 bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
 {
-  const Vector target = this->Mesh.OnSides(v, requested);
-  if (SquaredDistance(target, this->Start[static_cast<std::size_t>(v)]) > MostWay * MostWay)
+  const Vector target = this->Mesh.ProjectToSides(v, requested);
+  if (SquaredDistance(target, this->Start[static_cast<std::size_t>(v)]) > MostMove * MostMove)
   {
     return false;
   }
@@ -288,7 +287,7 @@ bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
         FaceCoordinates t = FaceCoordinatesOf(this->Mesh, face);
         const MeshTriangle old = t;
         const std::ptrdiff_t moved = std::find(t.Vertex, t.Vertex + 3, image[0]) - t.Vertex;
-        t.Corner[moved] = VectorD(this->Mesh.OnSides(image[0], target));
+        t.Corner[moved] = VectorD(this->Mesh.ProjectToSides(image[0], target));
         isFair = isFair && CosineOf(NormalOf(old), NormalOf(t)) > LeastTurnCosine &&
           this->KeepsVoxels(face, moved, old, t);
         this->Changed.push_back(f);
@@ -296,11 +295,11 @@ bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
       });
   }
   if (!isFair || !this->Clearance.AreClear(this->Made, this->Changed, this->Near) ||
-    !this->TakeVolumes())
+    !this->AddGains())
   {
     return false;
   }
-  this->Place(target);
+  this->MoveTo(target);
   for (const int f : this->Changed)
   {
     this->Clearance.Change(f);
@@ -308,9 +307,9 @@ bool NearDegenerateRegions::TryMoveTo(int v, const Vector& requested)
   return true;
 }
 
-bool NearDegenerateRegions::TakeVolumes()
+bool NearDegenerateRegions::AddGains()
 {
-  std::map<int, double> gains; // by object
+  std::map<int, double> gains;
   const std::array<double, 3>& step = this->Fields.Step();
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {
@@ -336,7 +335,7 @@ bool NearDegenerateRegions::TakeVolumes()
     const double voxels = static_cast<double>(this->Fields.Bricks().ExtentOf(gain.first).Voxels);
     const double before = this->Gains[static_cast<std::size_t>(gain.first)];
     const double after = std::abs(before + gain.second);
-    return after <= std::max(MostGain, MostGainShare * voxels) || after <= std::abs(before);
+    return after <= std::max(MostGain, MostGainFraction * voxels) || after <= std::abs(before);
   };
   if (!std::all_of(gains.begin(), gains.end(), isFair))
   {
@@ -357,21 +356,21 @@ bool NearDegenerateRegions::KeepsVoxels(const InterfaceMesh::Face& face, std::pt
   const VectorD& a = before.Corner[(moved + 1) % 3];
   const VectorD& b = before.Corner[(moved + 2) % 3];
   const double all = VolumeOf(from, a, b, to);
-  // What it goes through is given to the object behind it where it goes forward.
+  // The swept volume goes to the object behind the face if the face moves forward.
   const int taker = all > 0. ? face.Behind : face.Front;
   const VectorD normal = Normalized(NormalOf(after));
   const std::array<double, 3>& step = this->Fields.Step();
-  VoxelBox about;
+  VoxelBox box;
   int axis = 0;
-  for (double VectorD::*of : { &VectorD::X, &VectorD::Y, &VectorD::Z })
+  for (double VectorD::*c : { &VectorD::X, &VectorD::Y, &VectorD::Z })
   {
-    const auto [low, high] = std::minmax({ from.*of, to.*of, a.*of, b.*of });
-    about.First[axis] = static_cast<int>(std::ceil(low / step[axis]));
-    about.End[axis] = static_cast<int>(std::floor(high / step[axis])) + 1;
+    const auto [low, high] = std::minmax({ from.*c, to.*c, a.*c, b.*c });
+    box.First[axis] = static_cast<int>(std::ceil(low / step[axis]));
+    box.End[axis] = static_cast<int>(std::floor(high / step[axis])) + 1;
     ++axis;
   }
   bool areKept = true;
-  about.ForVoxels(
+  box.ForVoxels(
     [&](int i, int j, int k)
     {
       const VectorD centre(i * step[0], j * step[1], k * step[2]);

@@ -14,53 +14,53 @@
 namespace volumic
 {
 /**
- * Opens what is narrow at the end: triangles, wedges between two interfaces about a junction line,
- * and gaps between triangles where they have nothing in common, also of vertices on lines. One
- * after another these go the way on which what is about them becomes wider, step by step, no
- * further than MostWay from where they were; only where nothing intersects then, no voxel's centre
- * comes to the wrong side by more than a tolerance, and objects keep their volumes.
+ * Opens near-degenerate regions of interfaces: triangles with small angles, narrow dihedral wedges
+ * at junction lines, and narrow gaps between triangles (SquaredGapBetween). Vertices are moved one
+ * after another along the gradient of a narrowness measure, in small steps and within a maximum
+ * distance of their initial positions. A move is made only if no triangles intersect, no voxel
+ * centre is misclassified by more than a tolerance, and the volumes of objects are preserved.
  */
 class NearDegenerateRegions
 {
 public:
   /**
-   * @param edge           wanted, where sizes are 1; lengths: workspace
-   * @param tolerance      nearer than that triangles are never
-   * @param voxelTolerance how far voxels may be on the wrong side
+   * All lengths are in computational space.
+   * @param edge           desired edge length at size 1
+   * @param tolerance      triangles at a smaller distance count as intersecting
+   * @param voxelTolerance allowed distance of misclassified voxel centres from a face
    */
   NearDegenerateRegions(InterfaceMesh& mesh, const InterfaceFields& fields, double edge,
     double tolerance, double voxelTolerance);
 
-  /** @param goOn asked now and then; after false no more is opened */
-  void Open(Executor& executor, const std::function<bool()>& goOn);
+  /** Open all regions. @param shouldContinue called regularly; returns false to stop */
+  void Open(Executor& executor, const std::function<bool()>& shouldContinue);
 
 private:
-  /** The corners of narrow triangles, and of those about narrow wedges and gaps, sorted. */
+  /** Return the sorted vertices of narrow triangles and of triangles at narrow wedges and gaps. */
   std::vector<int> FindVertices(Executor& executor);
-  /** Calls visit(squared lack) for each gap too narrow between a face and another one. @param near
-   * room */
+  /** Call visit(SquaredDeficit()) for each narrow gap at a face. @param near scratch memory */
   template <typename Visitor>
   void ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const;
-  /** How narrow all is about a vertex, squared differences from what is aimed at; 0: nothing is. */
+  /** Return the sum of SquaredDeficit() of all triangles, wedges and gaps at a vertex. */
   double NarrownessAt(int v);
   double NarrownessOfImages();
   bool TryMove(int v);
   bool TryMoveTo(int v, const Vector& requested);
-  /** What a face would be with its vertex at a place has no voxel on the wrong side of it. */
+  /** Return whether no voxel centre is misclassified when a vertex of a face moves. */
   bool KeepsVoxels(const InterfaceMesh::Face& face, std::ptrdiff_t moved,
     const MeshTriangle& before, const MeshTriangle& after) const;
-  /** Adds what Made, in the place of Changed, gives each object to Gains, if none gets too much. */
-  bool TakeVolumes();
-  void Place(const Vector& target);
+  /** Add the volume changes of replacing Changed by Made to Gains, unless one becomes too large. */
+  bool AddGains();
+  void MoveTo(const Vector& target);
 
   InterfaceMesh& Mesh;
   const InterfaceFields& Fields;
   const double Edge;
   const double VoxelTolerance;
   InterfaceClearance Clearance;
-  LargeVector<Vector> Start;              ///< where vertices were
-  std::vector<double> Gains;              ///< of each object by all moves, voxels
-  std::vector<std::array<int, 2>> Images; ///< of the vertex that is looked at
+  LargeVector<Vector> Start;              ///< initial positions
+  std::vector<double> Gains;              ///< volume gained by each object, in voxels
+  std::vector<std::array<int, 2>> Images; ///< images of the current vertex
   std::vector<int> Changed;
   std::vector<int> AtEdge;
   std::vector<int> Near;

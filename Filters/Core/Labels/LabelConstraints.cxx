@@ -9,16 +9,15 @@ namespace volumic
 {
 namespace
 {
-/** Of the two Gaussians of the kernel, in smallest distances of voxels. */
+/** Standard deviations of the two Gaussians of the kernel, in the smallest voxel spacing. */
 constexpr double WideSigma = 1.5;
 constexpr double NarrowSigma = 0.6;
-/** Share of the narrow one: it keeps the problem well-posed where signs change at each voxel. */
-constexpr double NarrowShare = 0.3;
+/** Weight of the narrow Gaussian. It keeps the problem well-posed if signs alternate by voxel. */
+constexpr double NarrowWeight = 0.3;
 constexpr int MostSweeps = 40;
-/** A constraint that is met but for this is met. */
-constexpr float Tolerance = 0.01f;
+constexpr float Tolerance = 0.01f; ///< of a constraint
 
-/** The kernel about a voxel, by rows along x. */
+/** Kernel at a voxel, x fastest. */
 class Kernel
 {
 public:
@@ -37,22 +36,22 @@ public:
         const double y = j * spacing[1];
         const double z = k * spacing[2];
         const double square = x * x + y * y + z * z;
-        // Products of kernels are kernels: cut off alone it would be none.
+        // A product of positive definite kernels is positive definite; a truncated kernel is not.
         const double taper = this->Taper(0, i) * this->Taper(1, j) * this->Taper(2, k);
         const double wide = std::exp(-0.5 * square / (WideSigma * WideSigma));
         const double narrow = std::exp(-0.5 * square / (NarrowSigma * NarrowSigma));
         this->Values.push_back(
-          static_cast<float>(taper * ((1. - NarrowShare) * wide + NarrowShare * narrow)));
+          static_cast<float>(taper * ((1. - NarrowWeight) * wide + NarrowWeight * narrow)));
       });
   }
 
-  /** Adds it, times `factor`, to the field; what is beyond the box is left out. */
-  void AddTo(LabelField& field, std::int64_t place, float factor) const
+  /** Add the kernel, times `factor`, to the field within its box. */
+  void AddTo(LabelField& field, std::int64_t index, float factor) const
   {
     const std::array<int, 3> size = field.Box.Size();
-    const int x = static_cast<int>(place % size[0]);
-    const int y = static_cast<int>(place / size[0] % size[1]);
-    const int z = static_cast<int>(place / size[0] / size[1]);
+    const int x = static_cast<int>(index % size[0]);
+    const int y = static_cast<int>(index / size[0] % size[1]);
+    const int z = static_cast<int>(index / size[0] / size[1]);
     const int first = std::max(-this->Reach[0], -x);
     const int last = std::min(this->Reach[0], size[0] - 1 - x);
     const float* row = this->Values.data();
@@ -63,7 +62,7 @@ public:
         if (y + j >= 0 && y + j < size[1] && z + k >= 0 && z + k < size[2])
         {
           float* to =
-            field.Values.data() + place + size[0] * (j + static_cast<std::int64_t>(size[1]) * k);
+            field.Values.data() + index + size[0] * (j + static_cast<std::int64_t>(size[1]) * k);
           for (int i = first; i <= last; ++i)
           {
             to[i] += factor * row[i + this->Reach[0]];
@@ -81,7 +80,7 @@ private:
   }
 
   std::array<int, 3> Reach;
-  std::vector<float> Values; ///< 1 in the middle
+  std::vector<float> Values; ///< 1 at the middle
 };
 }
 
@@ -97,14 +96,14 @@ void ConstrainToLabels(LabelField& field, const std::array<double, 3>& spacing,
     for (std::size_t c = 0; c < constraints.size(); ++c)
     {
       const VoxelConstraint& constraint = constraints[c];
-      const auto place = static_cast<std::size_t>(constraint.Place);
-      const float missing = constraint.Margin - constraint.Side * field.Values[place];
+      const auto index = static_cast<std::size_t>(constraint.Index);
+      const float deficit = constraint.Margin - constraint.Side * field.Values[index];
       float& multiplier = multipliers[c];
-      const float change = std::max(missing, -multiplier);
+      const float change = std::max(deficit, -multiplier);
       if (change > Tolerance || change < -Tolerance)
       {
         multiplier += change;
-        kernel.AddTo(field, constraint.Place, constraint.Side * change);
+        kernel.AddTo(field, constraint.Index, constraint.Side * change);
         areMet = false;
       }
     }

@@ -11,21 +11,21 @@
 
 namespace volumic
 {
-/** A constraint changes the field no further than this many voxels along an axis. */
+/** Maximum distance along each axis at which a constraint changes the field, in voxels. */
 constexpr int ConstraintReach = 3;
 
-/** What the field must be at a voxel: at least Margin, times Side. */
+/** Constraint on the field value at a voxel: Side * value >= Margin. */
 struct VoxelConstraint
 {
-  std::int64_t Place; ///< in the field
+  std::int64_t Index; ///< index of the voxel in LabelField::Values
   float Side;         ///< 1 inside, -1 outside
   float Margin;
 };
 
 /**
- * Changes the field by the smallest sum of kernels about these voxels that meets the constraints:
- * step 4 of MakeLabelField(). Where they are too many and too different, they are met as far as a
- * bounded number of sweeps over them gets.
+ * Add the smallest sum of kernels at these voxels to the field that satisfies the constraints: step
+ * 4 of MakeLabelField(). The number of iterations is bounded, so that contradictory constraints are
+ * satisfied only approximately.
  */
 void ConstrainToLabels(LabelField& field, const std::array<double, 3>& spacing,
   const std::vector<VoxelConstraint>& constraints);

@@ -18,20 +18,19 @@ namespace volumic
 {
 namespace
 {
-/** Only voxels nearer to the boundary than this can come to the wrong side of it. */
-constexpr float MostWrong = 1.5f;
-/** More than that is an edge, which chords do not follow. */
+/** Maximum distance of a voxel from the boundary at which it may become misclassified. */
+constexpr float MostMisclassified = 1.5f;
+/** Maximum curvature: larger values are sharp edges, which the chord correction does not follow. */
 constexpr float MostCurvature = 0.35f;
-/** What the field has at a voxel at least, where not all constraints can be met. */
+/** Least absolute field value at a voxel if not all constraints can be satisfied. */
 constexpr float LeastSize = 0.05f;
-/** Times which it is looked for what a tolerance would lose. */
-constexpr int MostRescues = 4;
-/** Where the field is flatter it is a ridge, and has no bend. */
+/** Maximum number of searches for missed voxels with a tolerance. */
+constexpr int MostMissedSearches = 4;
+/** Least slope for the chord correction: a flatter field has a ridge. */
 constexpr float LeastSlope = 0.2f;
-/** The Laplacian of the distance is taken this near to the boundary. */
-constexpr float MostBent = 2.5f;
+/** Maximum distance from the boundary for the chord correction. */
+constexpr float MostCorrected = 2.5f;
 
-/** Makes the field of one object, step by step. */
 class FieldMaker
 {
 public:
@@ -51,21 +50,21 @@ public:
     if (this->Options.Sigma > 0.)
     {
       MakeLabelDistance(this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
-      this->CorrectBends();
+      this->CorrectChords();
       this->Constrain();
     }
     return std::move(this->Field);
   }
 
 private:
-  /** Without smoothing no voxel is on the wrong side of the field. */
+  /** A field without smoothing has no misclassified voxels, and hence no tolerance. */
   bool HasTolerance() const { return this->Options.Tolerance > 0. && this->Options.Sigma > 0.; }
   float* RowAt(int i, int j, int k)
   {
     return this->Field.Values.data() + this->Field.Box.NumberOf(i, j, k);
   }
 
-  /** Without smoothing +-1/2; elsewhere they are what voxels off the rows stay. */
+  /** Set all voxels to +-Far, the final value outside the rows; without smoothing to +-1/2. */
   void FillFarVoxels()
   {
     const float size = this->Options.Sigma > 0. ? LabelField::Far : 0.5f;
@@ -86,7 +85,7 @@ private:
       });
   }
 
-  void CorrectBends()
+  void CorrectChords()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
@@ -104,17 +103,17 @@ private:
         const int end = std::min(i + count, box.End[0] - 1);
         for (int x = first - i; x < end - i; ++x)
         {
-          if (std::abs(old[x]) < MostBent)
+          if (std::abs(old[x]) < MostCorrected)
           {
             values[x] -=
-              correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
+              correction * std::clamp(this->CurvatureAt(old + x), -MostCurvature, MostCurvature);
           }
         }
       });
   }
 
-  /** What CorrectBends() takes off, as it is at a voxel; there must be others all about. */
-  float BendAt(const float* at) const
+  /** Return the curvature term of the chord correction. All 26 neighbours must be in the box. */
+  float CurvatureAt(const float* at) const
   {
     const VoxelBox& box = this->Field.Box;
     const std::array<std::int64_t, 3> step = { 1, box.Length(0),
@@ -137,7 +136,7 @@ private:
       gradient[a] = 0.5f * inverse[a] * (at[step[a]] - at[-step[a]]);
     }
     float square = 0.f;
-    float across = 0.f; // the second derivative along the gradient, times its square
+    float across = 0.f; // second derivative along the gradient, times its squared length
     for (int a = 0; a < 3; ++a)
     {
       const int b = (a + 1) % 3;
@@ -157,24 +156,25 @@ private:
       this->Field.IsConstrained = VoxelBits(this->Field.Box);
     }
     ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
-    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindMissed(); ++round)
+    for (int round = 0; this->HasTolerance() && round < MostMissedSearches && this->FindMissed();
+         ++round)
     {
       ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
-        // Kernels reach beyond the constraints, and those may have been too many to be met.
+        // Enforce the sign: kernels reach other voxels, and constraints may contradict each other.
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          const float side = this->Sides.Of(i + x, j, k);
+          const float side = this->Sides.SideOf(i + x, j, k);
           values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
       });
   }
 
-  /** The bits of those of four voxels that are less on their side than a number. */
+  /** Return a bit mask of four voxels: whether side * field is less than `least`. */
   unsigned FindLess(int i, int j, int k, float least)
   {
     const Lanes four = Lanes::Load(this->RowAt(i, j, k));
@@ -194,7 +194,7 @@ private:
     return !this->HasTolerance() || this->Field.IsConstrained.Has(i, j, k);
   }
 
-  /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
+  /** Add missed voxels (LabelSides::FindMissed) to IsConstrained. @return whether any are new */
   bool FindMissed()
   {
     const VoxelBits missed =
@@ -203,7 +203,7 @@ private:
     return !missed.IsEmpty();
   }
 
-  /** Of a voxel beside one of the other side that is thin: how far the nearest one is. */
+  /** Return the distance to the nearest thin neighbour of the other side; 0: none. */
   double DistanceToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
@@ -232,7 +232,7 @@ private:
                                       : this->Options.Margin - this->Options.Tolerance;
   }
 
-  /** The voxels whose constraints may not be met, or that one which is not met may change. */
+  /** Return the voxels whose constraints may be violated now or by enforcing others. */
   VoxelBits FindChanging()
   {
     VoxelBits changing = this->BesideThin;
@@ -243,10 +243,10 @@ private:
       {
         for (int x = 0; x < count; x += Lanes::Count)
         {
-          const bool isHeld = !this->HasTolerance() ||
+          const bool isConstrained = !this->HasTolerance() ||
             this->Field.IsConstrained.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
+          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isConstrained ? most : least));
         }
       });
     constexpr int reach = 2 * ConstraintReach;
@@ -255,7 +255,7 @@ private:
 
   std::vector<VoxelConstraint> FindConstraints()
   {
-    // Within a tolerance nothing is held for being thin.
+    // With a tolerance, only constrained voxels are treated as thin.
     this->Thin = this->Sides.FindThin();
     if (this->HasTolerance())
     {
@@ -279,18 +279,18 @@ private:
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
-      const float side = this->Sides.Of(i + x, j, k);
+      const float side = this->Sides.SideOf(i + x, j, k);
       if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
         !this->Thin.Has(i + x, j, k))
       {
-        const double way = this->DistanceToThin(i + x, j, k);
-        if (side * values[x] > way)
+        const double distance = this->DistanceToThin(i + x, j, k);
+        if (side * values[x] > distance)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
-            static_cast<float>(-this->Options.MostBesideThin * way) });
+            static_cast<float>(-this->Options.MostBesideThin * distance) });
         }
       }
-      if (side * values[x] < MostWrong)
+      if (side * values[x] < MostMisclassified)
       {
         constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
           static_cast<float>(this->MarginAt(i + x, j, k)) });
@@ -302,9 +302,9 @@ private:
   LabelSides Sides;
   LabelFieldOptions Options;
   Executor& Threads;
-  VoxelBits Rows;       ///< where values are computed
-  VoxelBits Thin;       ///< strict ones whose neighbors along an axis are on the other side
-  VoxelBits BesideThin; ///< those with one of these beside them: they must not take all the way
+  VoxelBits Rows;       ///< voxels to compute
+  VoxelBits Thin;       ///< constrained voxels with both neighbours along an axis on the other side
+  VoxelBits BesideThin; ///< neighbours of thin voxels on the other side
   LabelField Field;
 };
 }

@@ -13,12 +13,14 @@ namespace volumic
 {
 namespace
 {
-/** More voxels than that, of those of a slice, and times the most elsewhere, are another slice's.
+/**
+ * The map is not periodic if the fraction of differing voxels exceeds FewVoxels plus MostTimes the
+ * maximum fraction between neighbouring slices.
  */
 constexpr double FewVoxels = 0.01;
 constexpr double MostTimes = 2.;
 
-/** The share of voxels that differ between two slices across an axis. */
+/** Return the fraction of voxels that differ between two slices normal to an axis. */
 double DifferenceOf(
   const LabelMap& map, const VoxelBox& box, int axis, const std::array<int, 2>& slices)
 {
@@ -62,13 +64,11 @@ void CheckPeriodic(const LabelMap& map, const VoxelBox& box)
     }
     if (across > MostTimes * most + FewVoxels)
     {
-      ThrowInvalidArgument("Box Faces are to be periodic, but the labels are not along ",
-        "xyz"[axis], ": the first slice, which follows the last one, differs from it in ",
-        std::lround(100. * across), " % of the voxels, neighbouring slices differ in at most ",
-        std::lround(100. * most),
-        " %. Set Box Faces to flat, or give a volume of one period, in which a grain has one label "
-        "on "
-        "both sides.");
+      ThrowInvalidArgument("Box Faces is periodic, but the labels are not periodic along ",
+        "xyz"[axis], ": the first and the last slice differ in ", std::lround(100. * across),
+        " % of the voxels, neighbouring slices in at most ", std::lround(100. * most),
+        " %. Set Box Faces to flat, or provide a volume of one period in which each grain has the "
+        "same label on both sides.");
     }
   }
 }

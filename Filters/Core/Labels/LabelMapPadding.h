@@ -8,13 +8,13 @@
 
 namespace volumic
 {
-/** Has what is beyond a box go on with the nearest voxel in it, or with what its other end has. */
+/** Set the voxels beyond a box to the nearest voxel in it, or to the periodic continuation. */
 void PadLabelMap(LabelMap& map, const VoxelBox& box, bool isPeriodic);
 
 /**
- * In a periodic map the last slice of the box and the first one, which follows it, differ as
- * neighbouring ones do.
- * @throws std::invalid_argument where they do not along an axis
+ * Check that a map is periodic: the first slice differs from the last one as neighbouring slices
+ * do.
+ * @throws std::invalid_argument if the difference is too large along an axis
  */
 void CheckPeriodic(const LabelMap& map, const VoxelBox& box);
 }

@@ -9,7 +9,7 @@ namespace volumic
 {
 bool StarMerge::PlanFrom(int offset, float best, float& cost)
 {
-  // State (i, k): the bridge edge from place i of the first rim to place offset + k of the second.
+  // State (i, k): bridge edge from vertex i of the first link to vertex offset + k of the second.
   const int n = this->FirstLink.Count;
   const int m = this->SecondLink.Count;
   float sum[Ring::Capacity + 1][Ring::Capacity + 1];
@@ -37,7 +37,7 @@ bool StarMerge::PlanFrom(int offset, float best, float& cost)
     this->Candidate.push_back({ i % n, (offset + k) % m });
   }
   std::reverse(this->Candidate.begin(), this->Candidate.end());
-  // A whole turn about one rim vertex: it has more edges than the other rim has vertices.
+  // A whole turn about one link vertex has more bridge edges than the other link has vertices.
   int perFirst[Ring::Capacity] = {};
   int perSecond[Ring::Capacity] = {};
   for (const BridgeEdge& edge : this->Candidate)
@@ -135,7 +135,7 @@ void StarMerge::ChooseBridgeEdges()
   {
     return;
   }
-  // Far or skew stars: nothing is better than turning about both rims in step.
+  // Distant or skew stars: fall back to even strips.
   float least = std::numeric_limits<float>::max();
   for (int offset = 0; offset < this->SecondLink.Count; ++offset)
   {
@@ -194,14 +194,14 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   const Ring& facing = first ? this->SecondLink : this->FirstLink;
   for (std::size_t begin = 0; begin < count; ++begin)
   {
-    const int place = own(this->BridgeEdges[begin]);
-    if (place == own(this->BridgeEdges[(begin + count - 1) % count]))
+    const int index = own(this->BridgeEdges[begin]);
+    if (index == own(this->BridgeEdges[(begin + count - 1) % count]))
     {
-      continue; // Not the first bridge edge of this rim vertex.
+      continue; // Not the first bridge edge of this link vertex.
     }
     int run[Ring::Capacity];
     int length = 0;
-    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == place; ++i)
+    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == index; ++i)
     {
       const BridgeEdge& edge = this->BridgeEdges[i % count];
       run[length++] = facing.Item[first ? edge.Second : edge.First];
@@ -210,8 +210,8 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
     {
       std::reverse(run, run + length);
     }
-    // The run takes the place of the centre.
-    Ring& ring = mesh.Rings[link.Item[place]];
+    // Replace the centre by the run.
+    Ring& ring = mesh.Rings[link.Item[index]];
     const int at = ring.Find(centre);
     const Ring old = ring;
     ring.Count = 0;
@@ -230,11 +230,11 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   }
 }
 
-void StarMerge::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void StarMerge::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   this->InsertBridgeEdges(mesh, true);
   this->InsertBridgeEdges(mesh, false);
-  mesh.RemoveVertex(this->U, room);
-  mesh.RemoveVertex(this->V, room);
+  mesh.RemoveVertex(this->U, slots);
+  mesh.RemoveVertex(this->V, slots);
 }
 }

@@ -18,18 +18,18 @@ constexpr int Rounds = 8;
 constexpr int SeparatingRounds = 4;
 }
 
-int SurfaceOptimization::EndOfNew() const
+int SurfaceOptimization::NextVertex() const
 {
-  return this->Share ? this->Share->Room.Next : this->State.Mesh.Size();
+  return this->Context ? this->Context->Slots.Next : this->State.Mesh.Size();
 }
 
-std::vector<int> SurfaceOptimization::AliveOnes() const
+std::vector<int> SurfaceOptimization::AliveVertices() const
 {
   const SurfaceState& s = this->State;
   std::vector<int> alive;
-  std::copy_if(this->Within.begin(), this->Within.end(), std::back_inserter(alive),
+  std::copy_if(this->Candidates.begin(), this->Candidates.end(), std::back_inserter(alive),
     [&s](int v) { return s.Mesh.IsAlive(v); });
-  for (int v = this->FirstNew; v < this->EndOfNew(); ++v)
+  for (int v = this->FirstNew; v < this->NextVertex(); ++v)
   {
     if (s.Mesh.IsAlive(v))
     {
@@ -42,7 +42,7 @@ std::vector<int> SurfaceOptimization::AliveOnes() const
 void SurfaceOptimization::SeparateAll()
 {
   SurfaceState& s = this->State;
-  std::vector<int> crowded = this->AliveOnes();
+  std::vector<int> crowded = this->AliveVertices();
   crowded.erase(
     std::remove_if(crowded.begin(), crowded.end(), [&s](int v) { return s.NearOthers[v] == 0; }),
     crowded.end());
@@ -66,7 +66,7 @@ int SurfaceOptimization::ImproveAll(float good, bool mayCut)
   const auto score = [&s](int v)
   { return s.Mesh.IsAlive(v) ? StarScore(s, v, s.Mesh.Position[v]) : 1.f; };
   const int characteristic = this->Editor.EulerCharacteristic();
-  std::vector<int> list = this->AliveOnes();
+  std::vector<int> list = this->AliveVertices();
   std::vector<int> poor;
   for (int round = 0; round < Rounds && !list.empty(); ++round)
   {
@@ -82,7 +82,7 @@ int SurfaceOptimization::ImproveAll(float good, bool mayCut)
       if (now < good && !StarImprovement(s, this->Editor, this->SnapTo, mayCut).Improve(v) &&
         now < BadStar)
       {
-        again.push_back(v); // What is edited next to it may help.
+        again.push_back(v); // An edit of a neighbour may help.
       }
     }
     const std::vector<int>& changed = this->Editor.Changed();
@@ -90,30 +90,29 @@ int SurfaceOptimization::ImproveAll(float good, bool mayCut)
     SortUnique(again);
     list.swap(again);
   }
-  // Other stars stay good: they score as before until they are changed.
+  // Scores of other stars do not change until these are edited.
   poor.insert(poor.end(), this->Editor.Changed().begin(), this->Editor.Changed().end());
   SortUnique(poor);
-  std::vector<int> within;
-  std::set_intersection(
-    this->Within.begin(), this->Within.end(), poor.begin(), poor.end(), std::back_inserter(within));
-  this->Within.swap(within);
+  std::vector<int> candidates;
+  std::set_intersection(this->Candidates.begin(), this->Candidates.end(), poor.begin(), poor.end(),
+    std::back_inserter(candidates));
+  this->Candidates.swap(candidates);
   return (this->Editor.EulerCharacteristic() - characteristic) / 2;
 }
 
 void SurfaceOptimization::Run(const std::vector<int>& vertices)
 {
-  this->Within = vertices;
-  this->FirstNew = this->EndOfNew();
-  // A collapse may bring together what is far apart on the surface, and what is pushed apart may
-  // get ill-shaped faces.
+  this->Candidates = vertices;
+  this->FirstNew = this->NextVertex();
+  // A collapse may violate the clearance, and a push may make ill-shaped faces.
   this->SeparateAll();
   this->ImproveAll(GoodStar, false);
   this->SeparateAll();
-  // What could not be mended before may be now; if not, a cycle of three stands in the way.
+  // Retry the remaining stars. If this fails, a 3-cycle blocks them.
   this->ImproveAll(BadStar, false);
   if (this->ImproveAll(0.f, this->TopologyChanges) > 0)
   {
-    this->SeparateAll(); // The two sides of a cut are near each other.
+    this->SeparateAll(); // Both sides of a cut are near each other.
     this->ImproveAll(BadStar, this->TopologyChanges);
   }
 }

@@ -11,49 +11,47 @@
 namespace volumic
 {
 /**
- * The last touch at the end of a level: looks at the few vertices whose stars hold an edge outside
- * the bounds of eq. (1) or an ill-shaped face, which smoothing as a whole leaves behind, and tries
- * what would make the worst of each star better: removing a vertex of valence 3, a collapse, a
- * flip, or a slide along the surface. Before and after, vertices that are nearer than lambda delta
- * though far apart on the surface are pushed apart. The topology stays as it is, but for cuts
- * along 3-cycles where nothing else mends an edge that is too short.
+ * Final optimization of a level. It improves the few stars that smoothing leaves with an edge
+ * outside the bounds of eq. (1) or an ill-shaped face, with the edits of StarImprovement. Before
+ * and after, vertices nearer than lambda delta but far apart on the surface are pushed apart. The
+ * topology is unchanged, except for cuts along 3-cycles that block the collapse of an edge that is
+ * too short.
  *
- * Every edit is one of SurfaceEditor's, verified, so the mesh stays manifold and free of
- * intersections; one is made only where the worst of the faces concerned gets better, so it ends.
- * What is tried at a star: StarImprovement.
+ * SurfaceEditor verifies every edit, so the mesh stays manifold and free of intersections. An edit
+ * is made only if the worst score of the faces concerned increases, so the optimization terminates.
  */
 class SurfaceOptimization
 {
 public:
   /**
-   * @param snapTo (may be null): vertices that slide are led back onto its isopotential
-   * @param share of the visit; null: nobody else edits
+   * @param snapTo field whose isosurface sliding vertices are projected onto; may be null
+   * @param context of the block pass; null: no other thread edits
    */
   SurfaceOptimization(
-    SurfaceState& state, const Field* snapTo, bool topologyChanges, EditContext* share = nullptr)
-    : State(state), Share(share), Editor(state, share), SnapTo(snapTo),
+    SurfaceState& state, const Field* snapTo, bool topologyChanges, EditContext* context = nullptr)
+    : State(state), Context(context), Editor(state, context), SnapTo(snapTo),
       TopologyChanges(topologyChanges)
   {
   }
 
-  /** Of the stars of a list, in order, and of those that cuts make. Normals must be up to date. */
+  /** Optimize the listed stars, in order, and those that cuts make. Normals must be up to date. */
   void Run(const std::vector<int>& vertices);
 
-  /** Changed vertices of all its edits, in order; some may be named often. */
+  /** Return the changed vertices of all edits, in order, with duplicates. */
   std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
 
 private:
-  int EndOfNew() const;               ///< What is made next gets this index.
-  std::vector<int> AliveOnes() const; ///< Of the list, and what cuts have made.
+  int NextVertex() const;                 ///< Index of the next new vertex.
+  std::vector<int> AliveVertices() const; ///< Of Candidates and those made by cuts.
   void SeparateAll();
-  /** Those of the stars whose worst scores less than `good`. @return the cuts made */
+  /** Improve stars whose score is less than `good`. Return the number of cuts. */
   int ImproveAll(float good, bool mayCut);
 
   SurfaceState& State;
-  const EditContext* Share;
+  const EditContext* Context;
   SurfaceEditor Editor;
-  int FirstNew = 0;        ///< What is made after Run() has begun follows it.
-  std::vector<int> Within; ///< Whose stars may be poor.
+  int FirstNew = 0;            ///< First vertex made by Run().
+  std::vector<int> Candidates; ///< Vertices whose stars may be poor.
   const Field* SnapTo;
   bool TopologyChanges;
 };
