@@ -4,8 +4,8 @@
 # Debian packages, made by `cpack` in the build tree:
 #   with VTK       volumic (command, Python package and library), volumic-dev
 #   with ParaView  paraview-volumic (plugin, its library and Python package)
-# The headers and CMake files for ParaView's VTK are in no package: they would be where those of
-# volumic-dev are.
+# No package contains the headers and CMake files for ParaView's VTK: their paths are those of
+# volumic-dev.
 
 if (NOT volumic_makes_packages)
   message(STATUS "No Debian packages: they need -DCMAKE_INSTALL_LIBDIR="
@@ -22,8 +22,8 @@ set(volumic_debian_revision 1)
 set(volumic_debian_version "${Volumic_VERSION}-${volumic_debian_revision}")
 string(TIMESTAMP volumic_debian_date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 
-# volumic_describe_package(COMPONENT PACKAGE SECTION SUMMARY): what is the same for all packages:
-# copyright and changelog (in an ordinary installation there are none).
+# volumic_describe_package(COMPONENT PACKAGE SECTION SUMMARY): set the description of a package, and
+# install its copyright and changelog.
 function (volumic_describe_package component package section summary)
   set(changelog "${CMAKE_BINARY_DIR}/debian/${package}/changelog.Debian")
   configure_file("${volumic_debian}/changelog.in" "${changelog}" @ONLY)
@@ -44,7 +44,7 @@ endfunction ()
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME volumic)
 set(CPACK_PACKAGE_VENDOR "Volumic contributors")
-# Each package has its own summary: the first line of its description.
+# The summary of a package is the first line of its description.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
 set(CPACK_PACKAGE_CONTACT "${VOLUMIC_PACKAGE_MAINTAINER}")
 set(CPACK_PACKAGE_VERSION "${Volumic_VERSION}")
@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE "${volumic_debian_revision}")
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-# Which packages the libraries come from; our own are found in the build and named below.
+# Dependencies on the packages of libraries. Our own libraries are in the build and named below.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${CMAKE_LIBRARY_OUTPUT_DIRECTORY}")
 
@@ -70,19 +70,19 @@ math(EXPR volumic_next_python "${Python3_VERSION_MINOR} + 1")
 set(volumic_python_dependency
   "python3 (>= 3.${Python3_VERSION_MINOR}~), python3 (<< 3.${volumic_next_python})")
 
-# Which are imported as a file is read or written that needs them; tetgen and gmsh are programs.
+# Imported when a file that needs them is read or written. tetgen and gmsh are programs.
 set(volumic_python_recommends "python3-scipy, python3-nibabel, python3-pydicom, python3-gdcm"
   "python3-tifffile, python3-mrcfile, python3-zarr, python3-h5py, python3-meshio, python3-pil")
 list(JOIN volumic_python_recommends ", " volumic_python_recommends)
 
-# One package of all that is not for development.
+# One package for everything except development files.
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
 set(CPACK_COMPONENTS_ALL runtime)
-# Tell the linker and other packages of the library.
+# Register the library with the linker and other packages.
 set(control library-shlibs.in library-triggers.in)
 if (VOLUMIC_WRAP_PYTHON)
   list(APPEND CPACK_COMPONENTS_ALL python)
-  # Byte-compile at installation, and leave nothing behind.
+  # Byte-compile at installation; remove the files at removal.
   list(APPEND control python-postinst.in python-prerm.in)
 endif ()
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
@@ -93,7 +93,7 @@ if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
     "python3-paraview, python3-numpy, ${volumic_python_recommends}")
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${VOLUMIC_PLUGIN_DIR}")
   volumic_describe_package(plugin paraview-volumic science
-    "trustworthy surfaces from 3D images, plugin for ParaView")
+    "closed surfaces from 3D images, plugin for ParaView")
 else ()
   set(group runtime)
   set(package volumic)
@@ -103,15 +103,15 @@ else ()
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${volumic_python_recommends}")
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS
       "tetgen, gmsh, draco, python3-distributed, python3-argcomplete")
-    # The Python package had a package of its own.
+    # Former package of the Python package.
     foreach (field IN ITEMS PROVIDES CONFLICTS REPLACES)
       set("CPACK_DEBIAN_RUNTIME_PACKAGE_${field}" python3-volumic)
     endforeach ()
   endif ()
   volumic_describe_package(runtime volumic science
-    "trustworthy surfaces from 3D images, command and Python package")
+    "closed surfaces from 3D images, command and Python package")
   volumic_describe_package(development volumic-dev libdevel
-    "trustworthy surfaces from 3D images, development files")
+    "closed surfaces from 3D images, development files")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "volumic (= ${volumic_debian_version}), libvtk9-dev (>= 9.1)")
 endif ()

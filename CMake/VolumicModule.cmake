@@ -1,10 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Builds the VTK module Volumic::FiltersVolumic, for VTK or for ParaView.
+# Build the VTK module Volumic::FiltersVolumic for VTK or ParaView.
 
-# Both flavours can be installed under one prefix: what is for ParaView says so in its name, as
-# Debian's own libraries do.
+# Both variants can be installed under one prefix: names for ParaView have a suffix, as Debian's libraries.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   set(volumic_flavour "pv${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}")
   set(volumic_flavour_suffix "-${volumic_flavour}")
@@ -14,7 +13,7 @@ else ()
 endif ()
 set(volumic_cmake_destination "${CMAKE_INSTALL_LIBDIR}/cmake/Volumic${volumic_flavour_suffix}")
 
-# Installed things find each other wherever the prefix is moved to, and VTK wherever it was found.
+# Installed libraries find VTK in the folder where CMake found it, and each other by $ORIGIN.
 set(CMAKE_INSTALL_RPATH_USE_LINK_PATH ON)
 
 function (volumic_build_module)
@@ -24,11 +23,11 @@ function (volumic_build_module)
     PROVIDES_MODULES modules
     HIDE_MODULES_FROM_CACHE ON
     ENABLE_TESTS OFF)
-  # The folder of vtk.module is the project's own, and so would be its binary folder: a folder
-  # below serves, within this function.
+  # vtk.module is in the top folder of the project. Use another binary folder than that of the project,
+  # within this function.
   set(version VERSION "${Volumic_VERSION}" SOVERSION "${Volumic_VERSION_MAJOR}")
   if (SKBUILD)
-    set(version "") # a wheel has no links, so the library has one name only
+    set(version "") # a wheel has no symbolic links, so the library has one name
   endif ()
   list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN")
   set(CMAKE_BINARY_DIR "${CMAKE_BINARY_DIR}/module")
@@ -49,3 +48,10 @@ function (volumic_build_module)
 endfunction ()
 
 volumic_build_module()
+
+# VTK installs the LICENSE_FILES of vtk.module from version 9.2 on.
+if (VTK_VERSION VERSION_LESS 9.2)
+  install(FILES "${CMAKE_SOURCE_DIR}/LICENSE"
+    DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Volumic/vtkFiltersVolumic"
+    COMPONENT licenses)
+endif ()

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What find_package(Volumic) reads: vtk_module_build writes targets and their properties only.
+# Package files for find_package(Volumic). vtk_module_build writes only targets and their properties.
 
 include(CMakePackageConfigHelpers)
 
 set(volumic_vtk_dir "${${VOLUMIC_VTK_PACKAGE}_DIR}")
-# ParaView is found as a whole, of VTK the modules that ours needs.
+# ParaView is found as a whole, VTK by the modules that are needed.
 set(volumic_dependency_components "")
 if (NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   list(JOIN volumic_vtk_components " " volumic_dependency_components)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The Python package `volumic`: VTK's wrapper of the module, the sources of Python/volumic, and type
-# stubs for editors. Without ParaView also the command `volumic`, a script that starts the package.
+# Build the Python package `volumic`: the Python wrapping of the module, the sources of Python/volumic
+# and type stubs for editors. The build with VTK adds the command `volumic`, a script.
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 
@@ -10,7 +10,7 @@ if (SKBUILD)
   # The root of a wheel is the folder of Python packages.
   set(volumic_python_default ".")
 elseif (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
-  # pvpython looks in its own folder; ParaView's classes must not meet those of plain VTK.
+  # pvpython searches its own folder. Classes of ParaView's VTK and of plain VTK must not be mixed.
   set(volumic_python_default "${CMAKE_INSTALL_LIBDIR}/paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/python3/site-packages")
 else ()
   set(volumic_python_default "lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages")
@@ -22,14 +22,14 @@ set(VOLUMIC_PYTHON_DESTINATION "${volumic_python_default}" CACHE STRING
   "Where the Python package goes, below the installation prefix")
 mark_as_advanced(VOLUMIC_PYTHON_DESTINATION)
 
-# vtk_module_wrap_python puts the wrappers below CMAKE_BINARY_DIR, where the sources join them: the
-# package and the command work in the build tree, too.
+# vtk_module_wrap_python puts the wrappers below CMAKE_BINARY_DIR. The sources are copied there, so the
+# package and the command also work in the build tree.
 set(volumic_python_sources "${CMAKE_SOURCE_DIR}/Python/volumic")
 set(volumic_python_build_directory "${CMAKE_BINARY_DIR}/${VOLUMIC_PYTHON_DESTINATION}")
 set(volumic_python_package "${volumic_python_build_directory}/volumic")
 
 function (volumic_wrap_python)
-  # From <python>/volumic up to the prefix, and down to the library.
+  # From <python>/volumic to the library, by way of the prefix.
   file(RELATIVE_PATH up "/prefix/${VOLUMIC_PYTHON_DESTINATION}/volumic" "/prefix/${CMAKE_INSTALL_LIBDIR}")
   set(CMAKE_INSTALL_RPATH "$ORIGIN/${up}")
   vtk_module_wrap_python(
@@ -45,7 +45,7 @@ endfunction ()
 
 volumic_wrap_python()
 
-# What helps where the package does not find the VTK that it was built for.
+# Advice in the message if the package does not find the VTK that it was built for.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   set(volumic_python_hint "Use ParaView's pvpython or pvbatch; install python3-paraview where it is missing.")
 else ()
@@ -53,6 +53,10 @@ else ()
   if (NOT EXISTS "/etc/debian_version")
     set(volumic_python_hint "Use the Python of that VTK.")
   endif ()
+endif ()
+if (NOT DEFINED volumic_vtk_version) # VolumicWheel.cmake requires more
+  set(volumic_vtk_version "${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION}")
+  set(volumic_vtk_folder "")
 endif ()
 configure_file("${volumic_python_sources}/__init__.py.in" "${volumic_python_package}/__init__.py"
   @ONLY)
@@ -70,7 +74,7 @@ install(DIRECTORY "${volumic_python_sources}/"
   FILES_MATCHING PATTERN "*.py"
   PATTERN __pycache__ EXCLUDE)
 
-# A wheel's command is made by pip (pyproject.toml); a plugin for ParaView has none.
+# pip creates the command of a wheel (pyproject.toml). A ParaView plugin has no command.
 if (NOT SKBUILD AND NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
   file(RELATIVE_PATH volumic_command_to_package
     "/prefix/${CMAKE_INSTALL_BINDIR}" "/prefix/${VOLUMIC_PYTHON_DESTINATION}")
@@ -81,8 +85,8 @@ if (NOT SKBUILD AND NOT VOLUMIC_BUILD_PARAVIEW_PLUGIN)
     COMPONENT python)
 endif ()
 
-# The stubs are written by the built package itself, which must find VTK's Python package for that:
-# without the module `site` (-S), by which pip hides the system's packages while it builds.
+# The built package writes the stubs, and must find VTK's Python package. -S: without the module `site`,
+# by which pip hides the packages of the system during a build.
 set(volumic_stubs_path "${volumic_python_build_directory}" "${VTK_PREFIX_PATH}/${VTK_PYTHONPATH}")
 if (DEFINED ENV{PYTHONPATH})
   list(APPEND volumic_stubs_path "$ENV{PYTHONPATH}")
@@ -91,7 +95,7 @@ list(JOIN volumic_stubs_path ":" volumic_stubs_path)
 set(volumic_stubs_command "${CMAKE_COMMAND}" -E env "PYTHONPATH=${volumic_stubs_path}"
   "PYTHONDONTWRITEBYTECODE=1" "${Python3_EXECUTABLE}" -S)
 
-# Whether this machine can run what it builds.
+# True if this machine can run the programs that it builds.
 set(volumic_stubs_obstacle "")
 if (CMAKE_CROSSCOMPILING)
   set(volumic_stubs_obstacle "cross-compiling")

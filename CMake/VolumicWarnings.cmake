@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# VOLUMIC_EXTRA_WARNINGS: more warnings for every target that holds code of ours, and for none of
-# VTK's wrappings. Headers of VTK, ParaView, Qt and CGAL are the system's for the compiler, which is
-# silent about them. CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) makes errors of the warnings.
+# VOLUMIC_EXTRA_WARNINGS: more warnings for all targets of the project, except VTK's wrappers. Headers of
+# VTK, ParaView, Qt and CGAL are system headers, for which the compiler does not warn.
+# CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) turns warnings into errors.
 
 if (NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it knows the flags of GCC and Clang only, "
+  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it supports GCC and Clang, "
     "not those of ${CMAKE_CXX_COMPILER_ID}.")
   return ()
 endif ()
@@ -14,15 +14,15 @@ endif ()
 set(volumic_warnings -Wall -Wextra -Wshadow)
 set(volumic_vtk_warnings ${volumic_warnings} -Wpedantic)
 if (CMAKE_CXX_COMPILER_ID MATCHES "Clang")
-  # The semicolon that VTK's habits put behind vtkTypeMacro() is one too many.
+  # For the semicolon after vtkTypeMacro().
   list(APPEND volumic_vtk_warnings -Wno-extra-semi)
 elseif (CMAKE_CXX_COMPILER_VERSION VERSION_LESS 14)
-  # The same; and this compiler has no flag of its own for it.
+  # For the same reason; this compiler has no separate flag for it.
   list(REMOVE_ITEM volumic_vtk_warnings -Wpedantic)
 endif ()
 list(APPEND volumic_warnings -Wpedantic)
 
-# Numbers are converted with care in what users run. Signs are left out, which Clang counts in:
+# Warn about conversions of numbers in the library and plugin, but not about signs, which Clang includes:
 # vertices and voxels have signed numbers, containers unsigned ones.
 set(volumic_conversion_warnings -Wconversion -Wno-sign-conversion)
 

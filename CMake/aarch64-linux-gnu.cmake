@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Toolchain: compiles for arm64 on another processor, and runs the tests in qemu's emulation. Takes
-# Debian's crossbuild-essential-arm64 and qemu-user-static, and VTK for arm64 in the folder
-# VOLUMIC_ARM64_ROOT, where Testing/arm64_root.sh puts it. The preset `arm64` uses all that.
+# Toolchain to compile for arm64 on another processor and to run the tests in qemu. It requires Debian's
+# crossbuild-essential-arm64 and qemu-user-static, and VTK for arm64 in the folder VOLUMIC_ARM64_ROOT
+# (see Testing/arm64_root.sh). The preset `arm64` uses it.
 
 if (NOT VOLUMIC_ARM64_ROOT)
-  message(FATAL_ERROR "VOLUMIC_ARM64_ROOT is not set: the folder that Testing/arm64_root.sh makes.")
+  message(FATAL_ERROR "Set VOLUMIC_ARM64_ROOT to the folder that Testing/arm64_root.sh makes.")
 endif ()
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES VOLUMIC_ARM64_ROOT)
 

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# What the project's scripts (Testing/run.sh, Examples/quickstart.sh) share; they source this file:
-# it installs what is missing on a Debian, and builds Volumic for VTK and for ParaView under build/,
-# printing a line per step and keeping a log of each step in build/logs.
+# Functions of the project's scripts (Testing/run.sh, Examples/quickstart.sh), which source this file:
+# install missing packages on Debian, and build Volumic for VTK and for ParaView under build/. Each step
+# prints a line and writes a log in build/logs.
 #
-#   plan_steps 3                                     # how many steps the script will announce
-#   install_packages "${tool_packages[@]}"           # a step; nothing is ever removed
-#   build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF    # two steps; into build/install-vtk
+#   plan_steps 3                                     # number of steps of the script
+#   install_packages "${tool_packages[@]}"           # a step; no package is removed
+#   build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF    # two steps; installs into build/install-vtk
 #   "$(vtk_python)" script.py                        # the interpreter that finds VTK
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -15,7 +15,7 @@ build=$root/build
 logs=$build/logs
 mkdir -p "$logs"
 
-# Debian's own interpreter; another python3 (conda, pyenv) may be the first on PATH.
+# Debian's interpreter. Another python3 (conda, pyenv) may be the first on PATH.
 python=/usr/bin/python3
 
 . "$root/CMake/script_options.sh"
@@ -36,15 +36,15 @@ fail()
   exit 1
 }
 
-# run_step TITLE LOG COMMAND...: run the command with its output in build/logs/LOG.log; when it
-# fails, show the end of the log and stop. The command runs in a subshell and without input.
+# run_step TITLE LOG COMMAND...: run the command in a subshell without input, with its output in
+# build/logs/LOG.log. If it fails, show the end of the log and stop.
 run_step()
 {
   local title=$1 log=$logs/$2.log started=$SECONDS status
   shift 2
   step_number=$((step_number + 1))
   printf '[%d/%d] %s ... ' "$step_number" "$step_total" "$title"
-  # Not in a condition: bash would ignore the errors inside of functions there.
+  # Not in a condition, where bash ignores errors inside functions.
   set +e
   (set -eo pipefail; "$@") > "$log" 2>&1 < /dev/null
   status=$?
@@ -60,7 +60,7 @@ run_step()
 
 # ---- Building ----------------------------------------------------------------------------------
 
-# As many jobs as there are processors and, at 1.5 GB for a job, memory.
+# Print the number of jobs: one per processor, with at least 1.5 GB of memory each.
 job_count()
 {
   local processors gigabytes
@@ -69,11 +69,11 @@ job_count()
   echo $((gigabytes < 1 ? 1 : gigabytes < processors ? gigabytes : processors))
 }
 
-# configure NAME ARGUMENT...: the build tree build/NAME, to be installed into build/install-NAME.
+# configure NAME ARGUMENT...: configure build/NAME, with the prefix build/install-NAME.
 configure()
 {
   local tree=$build/$1
-  # A build folder that came along with a moved or copied checkout is of no use.
+  # The build folder of a moved or copied checkout cannot be used.
   if [ -f "$tree/CMakeCache.txt" ] \
     && ! grep -qxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$tree/CMakeCache.txt"; then
     rm -rf "$tree"
@@ -89,7 +89,7 @@ compile_and_install()
   cmake --install "$build/$1"
 }
 
-# find_vtk: prepares VTK; the array vtk_options tells cmake where it is.
+# find_vtk: prepare VTK, and set the array vtk_options to the options of cmake.
 find_vtk()
 {
   local prefix
@@ -118,8 +118,8 @@ configure_paraview()
     -DParaView_DIR="$(echo "$prefix/usr/lib/$(multiarch)"/cmake/paraview-*)" "$@"
 }
 
-# build_vtk_flavour ARGUMENT... and build_paraview_flavour ARGUMENT...: two steps each; arguments go
-# to cmake. The packages must be installed.
+# build_vtk_flavour ARGUMENT... and build_paraview_flavour ARGUMENT...: two steps each, with arguments of
+# cmake. The packages must be installed.
 build_vtk_flavour()
 {
   run_step "Configuring for VTK" configure-vtk configure_vtk "$@"

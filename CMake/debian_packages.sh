@@ -1,33 +1,32 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Sourced by debian.sh: which of Debian's packages are needed, how they are installed, and what is
-# put beside them under build/.
+# Sourced by debian.sh: required Debian packages, their installation, and packages that are unpacked under
+# build/.
 #
-# Two facts make this long. In some releases python3-paraview and python3-vtk9 exclude each other:
-# whichever of them can't be installed without removing the other is unpacked into a folder under
-# build/ (prepare_paraview, prepare_vtk). And names of packages tell versions: what can be derived
-# from another package's dependencies, is, so that a new release needs no change here.
+# In some releases python3-paraview and python3-vtk9 exclude each other. The one that cannot be installed
+# is then unpacked under build/ (prepare_paraview, prepare_vtk). Package names that contain versions are
+# derived from the dependencies of other packages, so that a new release needs no change here.
 
-# The second line and the third: for formats of files, 41 MB to download beside the 600 MB of VTK
-# and the compiler. The command names the package where one is missing; the skull needs NumPy only.
+# Second and third line: file formats, a download of 41 MB beside 600 MB for VTK and the compiler. The
+# command names a missing package. The skull needs only NumPy.
 tool_packages=(g++ cmake ninja-build libtbb-dev python3 libpython3-dev python3-numpy
   python3-scipy python3-nibabel python3-pydicom python3-gdcm python3-tifffile python3-mrcfile
   python3-zarr python3-h5py python3-meshio python3-pil)
-# Without doxygen, which brings 200 MB of LLVM: its test is disabled where it is missing.
-# mpi-default-bin: mpirun, without which the tests of several processes are skipped.
-# ccache: what is compiled for both flavours is compiled once.
+# Without doxygen (200 MB of LLVM): its test is disabled if it is missing.
+# mpi-default-bin: mpirun for the tests with several processes, which are skipped otherwise.
+# ccache: sources of both variants are compiled once.
 test_packages=(ccache dpkg-dev file locales libgtest-dev libcgal-dev xvfb xauth libgl1-mesa-dri
   libxtst6 mpi-default-bin)
-# What more tests use where the release has it; they are skipped elsewhere. (So is that of gmsh, which
-# brings half a gigabyte.)
+# Packages of tests that are skipped if the release lacks them. (Without gmsh, half a gigabyte, whose test
+# is skipped, too.)
 optional_test_packages=(python3-scikit-build-core python3-venv python3-pip mypy tetgen
   calculix-ccx assimp-utils python3-distributed draco)
-# The CT of a skull, from which the examples start.
+# The CT of a skull, input of the examples.
 skull_package=invesalius-examples
 
-# What find_package(ParaView) looks for without paraview-dev depending on it, and what a plugin for
-# its window is made with.
+# Packages that find_package(ParaView) requires although paraview-dev does not depend on them, and tools
+# for a plugin with widgets.
 paraview_needs=(python3-mpi4py libxml2-dev libutfcpp-dev libhdf5-mpi-dev libogg-dev libtheora-dev
   libavformat-dev libavcodec-dev libavutil-dev libswscale-dev libgl2ps-dev libpng-dev libnetcdf-dev
   libgdal-dev libglew-dev libdouble-conversion-dev libfreetype-dev)
@@ -37,7 +36,7 @@ qt6_packages=(qt6-base-dev qt6-svg-dev qt6-5compat-dev qt6-tools-dev qt6-svg-plu
 
 # ---- Packages ----------------------------------------------------------------------------------
 
-# check_system: package lists where there are none yet.
+# check_system: download the package lists if there are none.
 check_system()
 {
   if command -v apt-get > /dev/null && [ -z "$(package_version libvtk9-dev)" ]; then
@@ -57,7 +56,7 @@ is_installed()
   [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2> /dev/null)" = installed ]
 }
 
-# available PACKAGE...: those that this release has.
+# available PACKAGE...: print the packages that this release has.
 available()
 {
   local package
@@ -74,7 +73,7 @@ missing_packages()
   done
 }
 
-# The version of a package that is installed, or of the one that could be; empty: there is none.
+# Print the installed version of a package, or else the available one; empty if there is none.
 package_version()
 {
   if is_installed "$1"; then
@@ -84,7 +83,7 @@ package_version()
   fi
 }
 
-# What apt-get is called through; empty when root.
+# Command to call apt-get with; empty for root.
 privileged=()
 
 is_root_or_sudo()
@@ -110,7 +109,7 @@ apt_install()
     apt-get install -y -q -o DPkg::Lock::Timeout=300 --no-install-recommends --no-remove "$@"
 }
 
-# install_packages PACKAGE...: one step, which installs those that are missing.
+# install_packages PACKAGE...: one step that installs missing packages.
 install_packages()
 {
   local missing
@@ -128,7 +127,7 @@ install_packages()
     apt_install "${missing[@]}"
 }
 
-# dependencies PACKAGE: the names of the packages that it depends on.
+# dependencies PACKAGE: print the names of its dependencies.
 dependencies()
 {
   LC_ALL=C apt-cache depends "$1" | sed -n 's/^ [ |]Depends: \([a-z0-9][^ ]*\)$/\1/p'
@@ -140,15 +139,15 @@ products_exclude_each_other()
     | grep -x ' *Conflicts: python3-vtk9' > /dev/null
 }
 
-# vtk_is_beside: VTK can't be installed, since ParaView is. Then, and only then, VTK is unpacked;
-# where the two exclude each other otherwise, ParaView's Python modules are.
+# vtk_is_beside: true if VTK cannot be installed because ParaView is. Then VTK is unpacked. In all other
+# cases in which they exclude each other, ParaView's Python modules are unpacked.
 vtk_is_beside()
 {
   is_installed python3-paraview && products_exclude_each_other
 }
 
-# The packages of VTK: those that can always be installed, and those that python3-paraview may
-# exclude. libvtk9-dev's CMake files want all of VTK's libraries and headers.
+# Packages of VTK: those that can always be installed, and those that python3-paraview may exclude. The
+# CMake files of libvtk9-dev require all libraries and headers of VTK.
 vtk_free_packages()
 {
   local library
@@ -159,13 +158,13 @@ vtk_free_packages()
 vtk_bound_packages() { echo "libvtk9-dev libvtk9-qt-dev python3-vtk9"; }
 paraview_product_packages() { echo "paraview paraview-dev python3-paraview"; }
 
-# vtk_packages and paraview_packages: the packages of a flavour that can be installed here.
+# vtk_packages and paraview_packages: print the packages of a variant that can be installed.
 vtk_packages()
 {
   local bound package
   read -ra bound <<< "$(vtk_bound_packages)"
   if vtk_is_beside; then
-    # These are unpacked, so what they depend on has to be named.
+    # These are unpacked, so their dependencies must be named.
     for package in "${bound[@]}"; do
       dependencies "$package" | grep -vxFf <(printf '%s\n' "${bound[@]}")
     done
@@ -185,7 +184,7 @@ paraview_packages()
   else
     printf '%s\n' "${qt5_packages[@]}"
   fi
-  # From 6.1 on Debian's ParaView is built with Debian's VTK, whose headers its own package lacks.
+  # From 6.1 on Debian's ParaView uses Debian's VTK, and paraview-dev has no headers of VTK.
   [ -z "$(dependencies paraview | grep '^libvtk9')" ] || printf '%s\n' libvtk9-dev libvtk9-qt-dev
 }
 
@@ -203,10 +202,9 @@ download_package()
   LC_ALL=C apt-get download -q "$package=$version"
 }
 
-# link_packages PREFIX PACKAGE...: make PREFIX/usr look as if all these packages were installed
-# there: the installed ones are linked, the others downloaded and unpacked. CMake's package files
-# are copied, since CMake resolves links to find its prefix. Nothing is done if the prefix holds
-# these versions already.
+# link_packages PREFIX PACKAGE...: fill PREFIX/usr with the files of these packages: links to installed
+# ones, and downloads of the others. CMake's package files are copied, because CMake resolves links to
+# find its prefix. Do nothing if the prefix has these versions already.
 link_packages()
 {
   local prefix=$1 package stamp linked=()
@@ -252,8 +250,7 @@ link_packages()
   echo "$stamp" > "$prefix/packages"
 }
 
-# The CMake files of VTK and ParaView look for NAME.so, where newer packages have
-# NAME.cpython-*.so: links with the former names.
+# The CMake files of VTK and ParaView search for NAME.so. Newer packages have NAME.cpython-*.so: add links.
 name_python_modules_plainly()
 {
   local module
@@ -262,8 +259,8 @@ name_python_modules_plainly()
   done
 }
 
-# write_launcher PREFIX NAME TARGET before|after: PREFIX/bin/NAME starts TARGET with the prefix's
-# Python packages before or after those that PYTHONPATH names.
+# write_launcher PREFIX NAME TARGET before|after: write PREFIX/bin/NAME, which starts TARGET with the
+# Python packages of the prefix before or after those in PYTHONPATH.
 write_launcher()
 {
   local prefix=$1 name=$2 target=$3 place=$4 packages=$1/usr/lib/python3/dist-packages
@@ -275,11 +272,11 @@ write_launcher()
   chmod +x "$prefix/bin/$name"
 }
 
-# The folder whose usr/ holds ParaView, complete, to find and to run (bin/paraview, pvbatch,
-# pvpython, pvserver).
+# Print the folder whose usr/ contains a complete ParaView, with bin/paraview, pvbatch, pvpython and
+# pvserver.
 paraview_prefix() { echo "$build/paraview-prefix"; }
 
-# The same for VTK; empty where the system's own serves.
+# The same for VTK; empty for the VTK of the system.
 vtk_prefix()
 {
   if vtk_is_beside; then
@@ -308,7 +305,7 @@ prepare_vtk()
   write_launcher "$prefix" python3 "$python" after
 }
 
-# The interpreter that imports VTK's modules, whichever way VTK is there.
+# Print the interpreter that imports VTK's modules.
 vtk_python()
 {
   local prefix
@@ -318,22 +315,22 @@ vtk_python()
 
 # ---- The skull ---------------------------------------------------------------------------------
 
-# A release may be without the skull's package (as forky is), which holds data only: there, the one
-# of the stable release is unpacked under build/.
+# If a release lacks the data package of the skull (as forky), that of the stable release is unpacked under
+# build/.
 skull_is_beside()
 {
   command -v apt-get > /dev/null && [ -z "$(package_version "$skull_package")" ]
 }
 
-# How many steps prepare_skull takes.
+# Print the number of steps of prepare_skull.
 skull_steps() { if skull_is_beside; then echo 1; else echo 0; fi; }
 
-# The skull's packages that can be installed.
+# Print the packages of the skull that can be installed.
 skull_packages() { skull_is_beside || echo "$skull_package"; }
 
 skull_prefix() { if skull_is_beside; then echo "$build/skull"; fi; }
 
-# The file of the skull.
+# Print the file of the skull.
 cranium() { echo "$(skull_prefix)/usr/share/doc/invesalius-examples/examples/Cranium.inv3"; }
 
 unpack_skull_of_stable()
@@ -346,7 +343,7 @@ unpack_skull_of_stable()
     | sed -n 1p)
   echo "deb [signed-by=/usr/share/keyrings/debian-archive-keyring.gpg]" \
     "${mirror:-http://deb.debian.org/debian} stable main" > "$prefix/sources.list"
-  # Lists of its own, so that the system's stay as they are and root's rights are not needed.
+  # Separate package lists: those of the system do not change, and root is not needed.
   options=(-q -o Dir::Etc::sourcelist="$prefix/sources.list" -o Dir::Etc::sourceparts=-
     -o Dir::State::lists="$prefix/lists" -o Dir::Cache::pkgcache= -o Dir::Cache::srcpkgcache=
     -o APT::Sandbox::User=)
@@ -357,7 +354,7 @@ unpack_skull_of_stable()
   rm -r "$skull_package"_*.deb lists sources.list
 }
 
-# prepare_skull: nothing, or a step that puts the skull where cranium says.
+# prepare_skull: put the skull into the file of cranium; no step if it exists.
 prepare_skull()
 {
   if skull_is_beside; then

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Sourced by debian.sh: how the project's scripts read their command lines. A script has two
-# functions of its own, `usage`, which prints its help, and `take_option`, which gets the words of
-# the command line that are left, the option first:
+# Sourced by debian.sh: parser of command lines. A script defines `usage`, which prints its help, and
+# `take_option`, whose arguments are the rest of the command line, beginning with an option:
 #
 #   take_option()
 #   {
@@ -15,11 +14,11 @@
 #   }
 #   parse_options "$@"
 
-# parse_options WORD...: --help is for all scripts; unknown options end the script. Where
-# take_option says used=0, the options end: this word and the rest are left in the array `arguments`.
+# parse_options WORD...: handle --help, and end the script at an unknown option. If take_option sets used=0,
+# the options end: the array `arguments` gets this word and the rest.
 parse_options()
 {
-  local used # words of the option
+  local used # number of words of the option
   arguments=()
   while [ $# -gt 0 ]; do
     case $1 in
@@ -41,14 +40,14 @@ parse_options()
   done
 }
 
-# need_value WHAT OPTION [VALUE]...: in take_option: the option has a value, the next word.
+# need_value WHAT OPTION [VALUE]...: for take_option: the next word is the value of the option.
 need_value()
 {
   [ $# -ge 3 ] || fail "$2 needs $1"
   used=2
 }
 
-# need_number OPTION [VALUE]...: the same, of a whole number.
+# need_number OPTION [VALUE]...: the same for an integer.
 need_number()
 {
   [[ ${2:-} =~ ^[0-9]+$ ]] || fail "$1 needs a number"

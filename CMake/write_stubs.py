@@ -1,15 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writes the type stubs of the package `volumic`: what editors and type checkers know of it.
+"""Write the type stubs of the package `volumic` for editors and type checkers.
 
     python3 write_stubs.py OUTPUT     # `volumic` and `vtkmodules` must be on PYTHONPATH
 
-The wrapped classes tell the signatures themselves, in their docstrings. VTK has a generator for
-such stubs, too, but VTK 9.1 on Debian comes without it, and it leaves out the texts, properties and
-what is in other modules.
+The signatures are in the docstrings of the wrapped classes. VTK's own generator is missing in Debian's
+VTK 9.1, and omits docstrings, properties and classes of other modules.
 
-Debian's VTK has no stubs of its own. So that editors know Update() and SetInputConnection() all the
-same, each class lists what it inherits from VTK, besides naming its base class.
+Debian's VTK has no stubs. Therefore each class also lists the methods that it inherits from VTK, such as
+Update() and SetInputConnection().
 """
 
 import ast
@@ -22,15 +21,15 @@ from pathlib import Path
 import volumic
 from volumic import vtkFiltersVolumic as module
 
-# Of VTK's words for types; what is not here and no class of VTK's is Any.
+# Type names in VTK's docstrings. Other names are classes of VTK, or else Any.
 TYPES = {"int": "int", "float": "float", "bool": "bool", "str": "str", "bytes": "bytes",
          "None": "None", "Callback": "Callable[..., Any]"}
-# Special methods of later VTKs, which have no signatures.
+# Special methods of later versions of VTK have no signatures.
 SPECIAL = {"__init__": "(self, **properties: Any) -> None",
            "__call__": "(self, *inputs: Any) -> Any",
            "__rshift__": "(self, consumer: Any) -> Any",
            "__rrshift__": "(self, producer: Any) -> Any"}
-# The wrapper takes the name of an event, too, which its docstring does not tell.
+# The wrapper also accepts the name of an event, which is not in the docstring.
 CORRECTIONS = {"AddObserver": ("event:int", "event:EventName")}
 UNKNOWN = "(self, *arguments: Any) -> Any"
 
@@ -42,7 +41,7 @@ from typing import Any, overload
 
 
 class Types:
-    """Annotations; remembers which classes of VTK they name."""
+    """Annotations, and the classes of VTK that they name."""
 
     def __init__(self):
         self.imports = {}  # class: VTK's module
@@ -63,7 +62,7 @@ class Types:
         return name
 
     def of(self, node, is_result):
-        """The annotation for VTK's, which is a name, (float, float) or [float, float]."""
+        """Return the annotation of a type of VTK: a name, (float, float) or [float, float]."""
         if isinstance(node, ast.Constant):  # None
             return self.named(str(node.value))
         if isinstance(node, ast.Name):
@@ -77,7 +76,7 @@ class Types:
         return "Any"
 
     def signature(self, text):
-        """(name: type, ...) -> type, for the wrapper's text; None if that is no signature."""
+        """Return "(name: type, ...) -> type" for the text of the wrapper; None if it is not a signature."""
         try:
             function = ast.parse(f"def {text}: ...").body[0]
         except SyntaxError:
@@ -97,7 +96,7 @@ class Types:
 
 
 def signatures_and_text(name, doc):
-    """What the wrapper put at the docstring's head, a line each, and the rest."""
+    """Return the lines of the wrapper at the beginning of a docstring, and the rest."""
     head, _, text = (doc or "").partition("\n\n")
     lines = re.sub(r"\n[ \t]+", " ", head).splitlines()
     signatures = [line for line in lines if line.startswith(f"{name}(")]
@@ -109,7 +108,7 @@ def signatures_and_text(name, doc):
 
 
 def group_text(owner, name):
-    """The text of a property's Set..., which stands for Get..., ...On and others that have none."""
+    """Return the docstring of Set..., for Get..., ...On and others without one."""
     stem = re.sub(r"^(Get|Set)|(On|Off)$", "", name)
     for group in (stem, re.sub(r"(MinValue|MaxValue|To[A-Z]\w*)$", "", stem)):
         setter = vars(owner).get(f"Set{group}")
@@ -124,7 +123,7 @@ def indented(text):
 
 
 def quoted(text):
-    """A docstring, or ... where there is no text."""
+    """Return a docstring, or ... if there is no text."""
     if not text:
         return "..."
     text = text.replace("\\", "\\\\").replace('"""', '\\"""')
@@ -158,7 +157,7 @@ def method(types, owner, name, value):
 
 
 def property_of(types, owner, name, value):
-    """A property of VTK 9.4 and later, which tells the methods that it calls."""
+    """Return the stub of a property of VTK 9.4 and later, whose docstring names its methods."""
     match = re.match(r"(read-only|write-only|read-write), calls (\w+)", value.__doc__ or "")
     access, called = match.groups() if match else ("read-write", "")
     callee = vars(owner).get(called)
@@ -175,7 +174,7 @@ def property_of(types, owner, name, value):
 
 
 def members(cls):
-    """(owner, name, value) of what the class has itself and what it inherits from VTK."""
+    """Yield (owner, name, value) of members of the class and of its base classes in VTK."""
     seen = set()
     for owner in cls.__mro__:
         if owner is object or (owner is not cls and owner.__module__ == module.__name__):
@@ -204,7 +203,7 @@ def class_stub(types, cls):
 
 
 def classes():
-    """Those of the module, each after its base class."""
+    """Return the classes of the module, each after its base class."""
     found = [value for value in vars(module).values() if inspect.isclass(value)]
     return sorted(found, key=lambda cls: (len(cls.__mro__), cls.__name__))
 

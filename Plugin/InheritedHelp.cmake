@@ -1,21 +1,20 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# ParaView writes a page of help for each proxy, with the properties in its own XML only. Run as a
-# script, this gives the page of a proxy with `base_proxyname` the properties that it inherits too;
-# once more changes nothing.
+# Script that adds inherited properties to the help page of a proxy with `base_proxyname`. ParaView writes
+# only the properties in the XML of the proxy. A second run changes nothing.
 #   cmake -DBASE=filters.DeformableSurface.html -DPAGE=filters.VolumeToSurface.html -P ...
 
 cmake_minimum_required(VERSION 3.18)
 
-# volumic_read_page(PREFIX FILE): sets PREFIX_before and PREFIX_after to what is around the rows of
-# its table of properties, PREFIX_names to the properties, PREFIX_row_<name> to their rows.
+# volumic_read_page(PREFIX FILE): set PREFIX_names to the properties in the table of a page,
+# PREFIX_row_<name> to their rows, and PREFIX_before and PREFIX_after to the text around the rows.
 function (volumic_read_page prefix file)
   file(READ "${file}" text)
-  string(FIND "${text}" "</tr>" head) # the table's first row: the titles of its columns
+  string(FIND "${text}" "</tr>" head) # the row of titles
   string(FIND "${text}" "</table>" end REVERSE)
   if (head EQUAL -1 OR end EQUAL -1)
-    message(FATAL_ERROR "${file} is not a page of help as ParaView writes them")
+    message(FATAL_ERROR "${file} is not a help page of ParaView")
   endif ()
   math(EXPR head "${head} + 5")
   string(SUBSTRING "${text}" 0 ${head} before)

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# What the plugin adds to ParaView's window, where ParaView has one: sets volumic_window_interfaces
-# and volumic_window_sources for paraview_add_plugin.
+# Widgets and behaviors of ParaView's window, if ParaView has one: sets volumic_window_interfaces and
+# volumic_window_sources for paraview_add_plugin.
 set(volumic_window_interfaces)
 set(volumic_window_sources)
 
-# volumic_panel_widget(KIND TYPE CLASS): `TYPE` is what the XML of the proxies says.
+# volumic_panel_widget(KIND TYPE CLASS): TYPE is the name in the XML of the proxies.
 function (volumic_panel_widget kind type class)
   paraview_plugin_add_property_widget(
     KIND "${kind}"

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Run by cpack on the trees that become packages: what an installation anywhere needs and one in
-# /usr must not have.
+# Run by cpack on the trees of packages: remove settings that a relocatable installation needs and an
+# installation in /usr must not have.
 
 file(GLOB_RECURSE files LIST_DIRECTORIES OFF "${CPACK_TEMPORARY_INSTALL_DIRECTORY}/*")
 foreach (file IN LISTS files)
@@ -10,12 +10,12 @@ foreach (file IN LISTS files)
     continue ()
   endif ()
   if (file MATCHES "/plugins/[^/]+/[^/]+[.]so$")
-    # The plugin's own library lies beside it; all others are where the system looks.
+    # The library of the plugin is in the same folder; all others are in system folders.
     file(RPATH_SET FILE "${file}" NEW_RPATH "$ORIGIN")
   elseif (file MATCHES "[.]so([.0-9]*)$")
     file(RPATH_REMOVE FILE "${file}")
   elseif (file MATCHES "/bin/volumic$")
-    # Debian's interpreter finds VTK by itself.
+    # Debian's interpreter finds VTK without help.
     file(READ "${file}" script)
     string(REGEX REPLACE "^#![^\n]*" "#!/usr/bin/python3" script "${script}")
     string(REGEX REPLACE "sys[.]path[.]append[^\n]*\n" "" script "${script}")

@@ -19,7 +19,7 @@ void AddPythonPath()
   {
     return;
   }
-  // The prefix, of an installation or a build, is above the folder of the plugin.
+  // The prefix of the installation or build is a parent of the folder of the plugin.
   std::error_code error;
   std::filesystem::path folder = std::filesystem::canonical(library.dli_fname, error);
   while (folder.has_relative_path())

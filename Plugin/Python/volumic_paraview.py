@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The readers and the writer of ParaView's plugin, on the package volumic.
+"""Readers and writer of the ParaView plugin, based on the package volumic.
 
-The XML of the plugin names these classes. ParaView creates them by vtkSIPythonSourceProxy, also in
-a server. Requests return 1 after an error, too: ParaView would add messages of its own.
+The XML of the plugin names these classes. vtkSIPythonSourceProxy creates them, also in a server.
+Requests return 1 after an error, because ParaView would add messages otherwise.
 """
 
 from __future__ import annotations
@@ -30,21 +30,21 @@ from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline 
 
 from volumic.errors import Failure
 
-# Words for options in messages of the command, and those for properties.
+# Phrases on options in messages of the command, and the same on properties.
 PROPERTIES = (("with --series N", "as Series"), ("(--series)", "(Series)"),
               ("with --time N", "as time step"), ("(--time)", "(time step)"),
               ("without --no-resampling they are", "switch Resampling on, and they are"),
               (" unless --unit gives another", ""))
 
 
-def _words_of_properties(text: str) -> str:
-    for option, words in PROPERTIES:
-        text = text.replace(option, words)
+def _name_properties(text: str) -> str:
+    for option, property_ in PROPERTIES:
+        text = text.replace(option, property_)
     return text
 
 
 def _reporting(method: Any) -> Any:
-    """Decorate a method: it reports its exceptions in ParaView's messages and returns 1."""
+    """Return a method that reports exceptions in ParaView's messages and returns 1."""
     @functools.wraps(method)
     def guarded(*arguments: Any) -> Any:
         try:
@@ -55,9 +55,8 @@ def _reporting(method: Any) -> Any:
             name = (error.name or "").split(".")[0]
             text = f"Python lacks the module {name}: install the package python3-{name}"
         except Exception as error:  # pylint: disable=broad-except
-            # ParaView's box shows the first line.
             text = f"{type(error).__name__}: {error}\n{traceback.format_exc()}"
-        text = _words_of_properties(text)
+        text = _name_properties(text)
         if "install" in text:
             text += f" (on {platform.node()})"
         vtkOutputWindow.GetInstance().DisplayErrorText(f"ERROR: {text}\n\n")
@@ -66,7 +65,7 @@ def _reporting(method: Any) -> Any:
 
 
 class VolumeReader(VTKPythonAlgorithmBase):
-    """Reads a volume at its position in the world: a file, a folder, or a series of files in time.
+    """Reads a volume in world coordinates: a file, a folder, or a series of files in time.
 
     The reader keeps the last volume, whose memory the output shares.
     """
@@ -75,14 +74,14 @@ class VolumeReader(VTKPythonAlgorithmBase):
         super().__init__(nInputPorts=0, outputType="vtkImageData")
         self._files: list[str] = []
         self._choice: dict[str, Any] = {"series": None, "resampling": True}
-        self._key: Any = None  # of the last volume, also if reading it failed
+        self._key: Any = None  # of the last volume, even if reading failed
         self._volume: Any = None
-        self._warnings: set[str] = set()  # that were shown
+        self._warnings: set[str] = set()  # already shown
 
     # ---- Properties ----
 
     def SetFileName(self, name: str | None) -> None:
-        """Set the file. Of DICOM: one of the slices of the series, or its folder."""
+        """Set the file; for DICOM one of the slices of the series, or its folder."""
         self._files = [name] if name else []
         self.Modified()
 
@@ -186,8 +185,8 @@ class VolumeReader(VTKPythonAlgorithmBase):
         return self._volume
 
     def _warn(self, text: str, path: str) -> None:
-        """Show a warning once. ParaView's box removes the beginning of messages in VTK's form only."""
-        text = _words_of_properties(text)
+        """Show a warning once."""
+        text = _name_properties(text)
         text = f"{text[:1].upper()}{text[1:]} ({os.path.basename(path)})"
         if text not in self._warnings:
             self._warnings.add(text)
@@ -199,8 +198,8 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
 
     `organs.stl` becomes `organs-liver.stl` and `organs-spleen.stl` for blocks named liver and
     spleen, and `organs-component-0.stl` and so on for one surface with several components, each
-    with its cavities. Of other cells, as Clip and Threshold produce, the outer surface is written.
-    Empty surfaces are left out. It is an error if there are no others.
+    with its cavities. For volume cells, as from Clip and Threshold, the outer surface is written.
+    Empty surfaces are omitted. It is an error if all are empty.
     """
 
     def __init__(self) -> None:
@@ -208,7 +207,7 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
         self._name = ""
 
     def SetFileName(self, name: str | None) -> None:
-        """Set the beginning of the names of all files, and their suffix."""
+        """Set the prefix and suffix of the file names."""
         self._name = name or ""
         self.Modified()
 
@@ -232,7 +231,7 @@ class SurfacesWriter(VTKPythonAlgorithmBase):
         writing.check_surface_name(self._name)
         surfaces = _surfaces_of(data)
         if not surfaces:
-            raise Failure(f"{self._name}: not written, as there are no triangles in it")
+            raise Failure(f"{self._name}: not written, because there are no triangles")
         if writing.is_scene(self._name):
             writing.write_scene([(name or "surface", surface) for name, surface in surfaces],
                                 self._name)

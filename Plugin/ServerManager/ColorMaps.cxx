@@ -21,7 +21,7 @@ void SetNumbers(vtkSMProxy* colors, const char* property, const std::vector<doub
 namespace volumic
 {
 //------------------------------------------------------------------------------
-bool HasGotItsRange(vtkSMProxy* colors)
+bool IsInitialized(vtkSMProxy* colors)
 {
   return vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).GetAsInt() != 0;
 }
@@ -32,18 +32,18 @@ void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categor
   std::vector<double> shown;
   vtkSMPropertyHelper annotations(colors, "Annotations");
   annotations.SetNumberOfElements(2 * static_cast<unsigned int>(categories.size()));
-  unsigned int place = 0;
+  unsigned int index = 0;
   for (const ColorCategory& category : categories)
   {
-    annotations.Set(place++, category.Value.c_str());
-    annotations.Set(place++, category.Text.c_str());
+    annotations.Set(index++, category.Value.c_str());
+    annotations.Set(index++, category.Text.c_str());
     shown.insert(shown.end(), category.Color.begin(), category.Color.end());
   }
   SetNumbers(colors, "IndexedColors", shown);
-  SetNumbers(colors, "NanColor", { ColorOfOthers.begin(), ColorOfOthers.end() });
+  SetNumbers(colors, "NanColor", { OtherColor.begin(), OtherColor.end() });
   vtkSMPropertyHelper(colors, "AnnotationsInitialized", true).Set(1);
   vtkSMPropertyHelper(colors, "IndexedLookup").Set(1);
-  // ParaView neither rescales it at Apply nor looks for values by itself.
+  // ParaView does not rescale it at Apply, and does not search the data for values.
   vtkSMPropertyHelper(colors, "AutomaticRescaleRangeMode", true)
     .Set(static_cast<int>(vtkSMTransferFunctionManager::NEVER));
   vtkSMPropertyHelper(colors, "ScalarRangeInitialized", true).Set(1);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-/** What displays set of ParaView's colour maps (proxies of PVLookupTable). */
+/** Functions for ParaView's colour maps (proxies of PVLookupTable). */
 #ifndef volumicColorMaps_h
 #define volumicColorMaps_h
 
@@ -12,25 +12,26 @@ class vtkSMProxy;
 
 namespace volumic
 {
-/** A value that a colour map tells apart from others, instead of a range. */
+/** A value of a categorical colour map. */
 struct ColorCategory
 {
   std::string Value;
-  std::string Text; ///< beside its colour, in a legend
+  std::string Text; ///< in the legend
   std::array<double, 3> Color;
 };
 
-/** Whether somebody, here, in ParaView or at it, has given it a range or categories. */
-bool HasGotItsRange(vtkSMProxy* colors);
+/** Return whether the colour map has a range or categories. */
+bool IsInitialized(vtkSMProxy* colors);
 
-constexpr std::array<double, 3> ColorOfOthers = { 0.5, 0.5, 0.5 };
+constexpr std::array<double, 3> OtherColor = { 0.5, 0.5, 0.5 };
 
-/** All other values get the grey. */
+/** Set the categories. All other values get OtherColor. */
 void SetCategories(vtkSMProxy* colors, const std::vector<ColorCategory>& categories);
 
+/** Return the categories. */
 std::vector<ColorCategory> CategoriesOf(vtkSMProxy* colors);
 
-/** But for what ParaView's editor of colour maps rounds, also where nobody edits: to 16 bits. */
+/** Compare categories. ParaView's colour map editor rounds colours to 16 bits without an edit. */
 bool AreSame(const std::vector<ColorCategory>& one, const std::vector<ColorCategory>& other);
 }
 

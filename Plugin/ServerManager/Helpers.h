@@ -11,13 +11,13 @@ class vtkPVDataInformation;
 namespace volumic
 {
 /**
- * A filter of ours that tells of data, of the group internal_filters: where its producer is, and
- * after it. Null: there is none.
+ * Create a filter of the group internal_filters at the location of its producer, with the producer as
+ * input. Return null if there is no filter of that name.
  */
 vtkSmartPointer<vtkSMSourceProxy> NewHelper(
   const char* name, vtkSMSourceProxy* producer, unsigned int port);
 
-/** At the time that is shown, so that nothing before the helper has to run again. */
+/** Update the helper at the time of the data, so that its producer does not run again. */
 void RunHelper(vtkSMSourceProxy* helper, vtkPVDataInformation* data);
 }
 

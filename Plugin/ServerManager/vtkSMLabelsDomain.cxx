@@ -33,7 +33,7 @@ vtkSMLabelsDomain::Choice vtkSMLabelsDomain::CurrentChoice()
     producer ? producer->GetDataInformation(source.GetOutputPort()) : nullptr;
   if (!data)
   {
-    return {}; // Of a producer that could not be made there is nothing to know.
+    return {}; // the producer could not be created
   }
   vtkSMUncheckedPropertyHelper chosen(selection);
   std::array<std::string, 5> array;
@@ -80,22 +80,22 @@ volumic::LabelRows vtkSMLabelsDomain::FetchLabels(
 const volumic::LabelRows& vtkSMLabelsDomain::GetLabels()
 {
   const Choice choice = this->CurrentChoice();
-  if (this->IsCounting || choice == this->Counted)
+  if (this->IsFetching || choice == this->Fetched)
   {
     return this->Labels;
   }
-  this->IsCounting = true;
+  this->IsFetching = true;
   const auto& [producer, port, array, time] = choice;
   this->Labels = producer ? FetchLabels(producer, port, array) : volumic::LabelRows();
-  this->Counted = this->CurrentChoice();
-  this->IsCounting = false;
+  this->Fetched = this->CurrentChoice();
+  this->IsFetching = false;
   return this->Labels;
 }
 
 //------------------------------------------------------------------------------
 void vtkSMLabelsDomain::Update(vtkSMProperty*)
 {
-  if (!this->IsCounting && this->CurrentChoice() != this->Counted)
+  if (!this->IsFetching && this->CurrentChoice() != this->Fetched)
   {
     this->DomainModified();
   }

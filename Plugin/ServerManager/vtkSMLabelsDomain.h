@@ -4,9 +4,9 @@
  * @class   vtkSMLabelsDomain
  * @brief   the labels of the input, for a property that lists some of them
  *
- * For panels that offer them: all values are allowed, and none is preset. The labels are counted
- * where the data is, only when somebody asks for them, and again once the input or the choice of
- * its array has changed; before that, the domain invokes its DomainModifiedEvent.
+ * All values are allowed, and none is preset. GetLabels() counts the labels on the server that has the
+ * data. It counts them again if the input or its array has changed. The domain invokes
+ * DomainModifiedEvent before that.
  *
  * Required properties: Input and ArraySelection.
  */
@@ -18,7 +18,7 @@
 
 #include <array>  // For the rows
 #include <string> // For the rows
-#include <tuple>  // For the choice
+#include <tuple>  // For Choice
 #include <vector> // For the rows
 
 class vtkSMSourceProxy;
@@ -36,7 +36,7 @@ struct LabelRow
 struct LabelRows
 {
   std::vector<LabelRow> Rows; ///< of a label map by value, of surfaces in the order of their blocks
-  std::string Problem;        ///< why there are none
+  std::string Problem;        ///< error message if there are none
 };
 }
 
@@ -50,9 +50,9 @@ public:
   void Update(vtkSMProperty* requestingProperty) override;
 
   /**
-   * Return the labels of a label map, or of the output of Labels to Surfaces, found where the data is
-   * by the helper proxy (internal_filters, LabelList). `array` is as SetInputArrayToProcess has it;
-   * empty: the active scalars.
+   * Return the labels of a label map, or of the output of Labels to Surfaces, by the helper proxy
+   * (internal_filters, LabelList).
+   * @param array elements of SetInputArrayToProcess; empty: the active scalars
    */
   static volumic::LabelRows FetchLabels(vtkSMSourceProxy* producer, unsigned int port,
     const std::array<std::string, 5>& array = {});
@@ -68,14 +68,14 @@ private:
   vtkSMLabelsDomain(const vtkSMLabelsDomain&) = delete;
   void operator=(const vtkSMLabelsDomain&) = delete;
 
-  /** Producer, port, array, and the time of its data: what labels are counted of. */
+  /** Producer, port, array, and modification time of the data. */
   using Choice =
     std::tuple<vtkSMSourceProxy*, unsigned int, std::array<std::string, 5>, vtkMTimeType>;
   Choice CurrentChoice();
 
-  Choice Counted;
+  Choice Fetched;
   volumic::LabelRows Labels;
-  bool IsCounting = false;
+  bool IsFetching = false;
 };
 
 #endif

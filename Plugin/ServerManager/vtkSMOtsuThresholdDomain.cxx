@@ -23,7 +23,7 @@ vtkStandardNewMacro(vtkSMOtsuThresholdDomain);
 
 namespace
 {
-/** What is known of the data, which is brought up to date if nothing is. */
+/** Return the data information. Update the producer if it has no data yet. */
 vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
 {
   vtkPVDataInformation* data = producer->GetDataInformation(port);
@@ -35,9 +35,7 @@ vtkPVDataInformation* DataOf(vtkSMSourceProxy* producer, unsigned int port)
   return data;
 }
 
-/**
- * What is known of an array that is chosen as SetInputArrayToProcess has it; null: it is not there.
- */
+/** Return the array information for the elements of SetInputArrayToProcess, or null. */
 vtkPVArrayInformation* ArrayOf(vtkPVDataInformation* data, const std::string array[5])
 {
   return data->GetArrayInformation(array[4].c_str(), std::atoi(array[3].c_str()));
@@ -210,7 +208,7 @@ void vtkSMOtsuThresholdDomain::UpdateRange(const Choice& choice)
   const int count = array ? array->GetNumberOfComponents() : 1;
   if (count > 1)
   {
-    // The superclass counts the magnitude as the component after the last.
+    // In the superclass the magnitude is the component after the last one.
     this->Superclass::Update(choice.Array[4].c_str(), association, choice.Producer,
       static_cast<int>(choice.Port), choice.Component < 0 ? count : choice.Component);
   }
@@ -228,7 +226,7 @@ void vtkSMOtsuThresholdDomain::Follow(const Choice& choice)
   vtkSMProperty* selection = this->GetRequiredProperty("ArraySelection");
   vtkSMProxy* filter = property ? property->GetParent() : nullptr;
   const bool wasPreset = this->Preset.HasArray();
-  // A new proxy is preset by ParaView itself, once all of its properties are.
+  // ParaView presets a new proxy itself.
   if (!filter || !choice.Producer || std::isnan(this->PresetValue) || choice == this->Preset ||
     (!wasPreset && this->Preset.Producer == choice.Producer) ||
     vtkSMUncheckedPropertyHelper(property).GetAsDouble() != this->PresetValue)
@@ -240,9 +238,9 @@ void vtkSMOtsuThresholdDomain::Follow(const Choice& choice)
   vtkPVDataInformation* data = DataOf(chosen.Producer, chosen.Port);
   if (!data || !ArrayOf(data, chosen.Array))
   {
-    return; // The filter will say so.
+    return; // The filter reports the error.
   }
-  // In a panel nothing is real before Apply.
+  // Before Apply a panel changes unchecked values only.
   const bool isUnchecked = !(this->CurrentChoice(false) == chosen) ||
     vtkSMPropertyHelper(property).GetAsDouble() != this->PresetValue;
   this->SetDefaultValues(property, isUnchecked);
@@ -262,7 +260,7 @@ void vtkSMOtsuThresholdDomain::Update(vtkSMProperty*)
     this->Following = true;
     this->Follow(this->CurrentChoice());
     this->Following = false;
-    // The range of another array, or of other data, may be the same.
+    // Other data may have the same range.
     const Choice choice = this->CurrentChoice();
     vtkPVDataInformation* data =
       choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;

@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMOtsuThresholdDomain
- * @brief   the range of an array, with Otsu's threshold of it as the default value
+ * @brief   the range of an array, with Otsu's threshold as the default value
  *
- * A property of one number with this domain is preset from the data when its proxy is made, and
- * whenever the user presses the button that resets it to the data. As long as the property keeps
- * the value that it was preset to, it follows the choice of another input, array or component; a
- * value that someone has given stays. Data that was never updated, as in a script, is updated for
- * it.
+ * A property of one number with this domain is preset from the data when its proxy is created, and
+ * when the user presses its reset button. While the property has its preset value, it is preset again
+ * if the input, array or component changes. Values set by the user remain. The domain updates data
+ * that were never updated, as in a script.
  *
- * The threshold is computed where the data is, by the helper proxy (internal_filters,
- * OtsuThreshold). Where it can't be, as for voxels that are all equal, the middle of the range is
- * the default, as of vtkSMArrayRangeDomain, whose required properties are those of this one: Input,
- * ArraySelection and ComponentSelection, of which -1 is the magnitude.
+ * The helper proxy (internal_filters, OtsuThreshold) computes the threshold on the server that has the
+ * data. If there is no threshold, for example if all voxels are equal, the default is the middle of the
+ * range, as of vtkSMArrayRangeDomain.
  *
- * Widgets show the histogram that the threshold is computed from (GetHistogram()).
+ * Required properties: Input, ArraySelection and ComponentSelection (-1: magnitude).
  */
 #ifndef vtkSMOtsuThresholdDomain_h
 #define vtkSMOtsuThresholdDomain_h
@@ -39,7 +37,7 @@ public:
   void Update(vtkSMProperty* requestingProperty) override;
   int SetDefaultValues(vtkSMProperty* property, bool useUncheckedValues) override;
 
-  /** Of the voxels of an array. Thresholds are NaN, and the rest empty, if there is none. */
+  /** Histogram of the voxels of an array. If there is none, thresholds are NaN and counts empty. */
   struct Histogram
   {
     double Low = 0.0; ///< smallest and largest voxel
@@ -61,7 +59,7 @@ private:
   vtkSMOtsuThresholdDomain(const vtkSMOtsuThresholdDomain&) = delete;
   void operator=(const vtkSMOtsuThresholdDomain&) = delete;
 
-  /** What is chosen now; nothing where there is no input. */
+  /** Input, array and component; without a producer if there is no input. */
   struct Choice
   {
     vtkSMSourceProxy* Producer = nullptr;
@@ -73,18 +71,18 @@ private:
     bool operator==(const Choice& other) const;
   };
   Choice CurrentChoice(bool useUnchecked = true);
-  /** Where none is chosen, as of data that was never updated, or none that a new input has. */
+  /** Choose an array if none is chosen, or if a new input does not have it. */
   void ChooseArray(bool isNewInput);
   const Histogram& FindHistogram(const Choice& choice, vtkPVDataInformation* data);
   void UpdateRange(const Choice& choice);
   void Follow(const Choice& choice);
 
-  Choice Preset;      ///< what was chosen when the property was preset
-  double PresetValue; ///< NaN: it never was
+  Choice Preset;      ///< choice when the property was preset
+  double PresetValue; ///< NaN before that
   bool Following = false;
-  Choice Seen;  ///< as all have been told, and since when its data are so
+  Choice Seen; ///< choice at the last DomainModifiedEvent, and modification time of its data
   vtkMTimeType SeenTime = 0;
-  Choice Found; ///< what the histogram is of, and since when
+  Choice Found; ///< choice of the histogram, and modification time of its data
   vtkMTimeType FoundTime = 0;
   Histogram Voxels;
 };

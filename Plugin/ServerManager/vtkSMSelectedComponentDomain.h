@@ -4,7 +4,7 @@
  * @class   vtkSMSelectedComponentDomain
  * @brief   the components of an array by their names, and the magnitude as -1
  *
- * ParaView's own domain can't have -1, the default of the filters.
+ * vtkSMNumberOfComponentsDomain does not have -1, the default of the filters.
  */
 #ifndef vtkSMSelectedComponentDomain_h
 #define vtkSMSelectedComponentDomain_h

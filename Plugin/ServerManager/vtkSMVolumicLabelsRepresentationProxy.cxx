@@ -26,7 +26,7 @@ vtkStandardNewMacro(vtkSMVolumicLabelsRepresentationProxy);
 namespace
 {
 /** The largest number of labels whose legend is shown automatically: more names are not readable. */
-constexpr std::size_t MostInLegend = 12;
+constexpr std::size_t MaximumInLegend = 12;
 
 /** Add the filters Labels to Surfaces upstream of a proxy, itself included. */
 void AddLabelFilters(vtkSMProxy* proxy, std::set<vtkSMProxy*>& found)
@@ -63,7 +63,7 @@ std::vector<volumic::ColorCategory> CategoriesOf(const volumic::LabelRows& label
   return categories;
 }
 
-/** Appends those whose value is not there. */
+/** Append the categories whose value is missing. */
 void Complete(std::vector<volumic::ColorCategory>& categories,
   const std::vector<volumic::ColorCategory>& others)
 {
@@ -149,22 +149,22 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
     std::set<vtkSMProxy*> filters;
     AddLabelFilters(display, filters);
     vtkSMProxy* present = vtkSMPropertyHelper(display, "LookupTable").GetAsProxy();
-    // The labels of two maps in one dataset can't be distinguished.
+    // The labels of two maps in one dataset cannot be distinguished.
     const bool isOfThis = filters == std::set<vtkSMProxy*>{ source };
-    vtkSMProxy* wanted = present;
+    vtkSMProxy* assigned = present;
     if (isOfThis && (present == common || (view && view == vtkSMViewProxy::FindView(display))))
     {
-      wanted = own;
+      assigned = own;
     }
     else if (!isOfThis && present == own)
     {
-      wanted = common;
+      assigned = common;
     }
-    if (wanted != present)
+    if (assigned != present)
     {
-      vtkSMPropertyHelper(display, "LookupTable").Set(wanted);
+      vtkSMPropertyHelper(display, "LookupTable").Set(assigned);
       vtkSMPropertyHelper(display, "ScalarOpacityFunction", true)
-        .Set(vtkSMPropertyHelper(wanted, "ScalarOpacityFunction").GetAsProxy());
+        .Set(vtkSMPropertyHelper(assigned, "ScalarOpacityFunction").GetAsProxy());
       display->UpdateVTKObjects();
     }
   }
@@ -173,7 +173,7 @@ void vtkSMVolumicLabelsRepresentationProxy::ShareColors()
 //------------------------------------------------------------------------------
 void vtkSMVolumicLabelsRepresentationProxy::ViewUpdated(vtkSMProxy* view)
 {
-  // Before this, what is known of the data is that of the run before.
+  // The superclass updates the data information.
   this->Superclass::ViewUpdated(view);
   vtkSMProxy* source = vtkSMPropertyHelper(this, "Input", true).GetAsProxy();
   vtkPVDataInformation* data = this->GetInputInformation();
@@ -213,7 +213,7 @@ void vtkSMVolumicLabelsRepresentationProxy::FollowData()
   this->AdaptColorsOf("Label", colors, data);
   vtkSMProxy* view = vtkSMViewProxy::FindView(this);
   if (view && this->CountInLegend > 0 && IsColoredByLabel(this) &&
-    (this->Count <= MostInLegend) != (this->CountInLegend <= MostInLegend))
+    (this->Count <= MaximumInLegend) != (this->CountInLegend <= MaximumInLegend))
   {
     this->ShowLegend(view);
   }
@@ -228,10 +228,10 @@ void vtkSMVolumicLabelsRepresentationProxy::ShowLegend(vtkSMProxy* view)
   vtkNew<vtkSMTransferFunctionManager> manager;
   vtkSMProxy* bar = manager->GetScalarBarRepresentation(
     vtkSMPropertyHelper(this, "LookupTable").GetAsProxy(), view);
-  const std::size_t count = std::min(this->Count, MostInLegend);
+  const std::size_t count = std::min(this->Count, MaximumInLegend);
   vtkSMPropertyHelper(bar, "ScalarBarLength").Set(std::max(0.33, 0.04 * count));
   bar->UpdateVTKObjects();
-  if (this->Count > MostInLegend)
+  if (this->Count > MaximumInLegend)
   {
     this->SetScalarBarVisibility(view, false);
   }
@@ -254,24 +254,24 @@ void vtkSMVolumicLabelsRepresentationProxy::AdaptColorsOf(
     return;
   }
   this->AdaptedTime = data->GetMTime();
-  std::vector<volumic::ColorCategory> wanted =
+  std::vector<volumic::ColorCategory> categories =
     CategoriesOf(vtkSMLabelsDomain::FetchLabels(source, input.GetOutputPort()));
-  if (wanted.empty())
+  if (categories.empty())
   {
-    return; // After an error the categories are those of the run before.
+    return; // After an error keep the categories of the previous run.
   }
-  this->Count = wanted.size();
+  this->Count = categories.size();
   std::vector<volumic::ColorCategory> present = volumic::CategoriesOf(colors);
-  if (volumic::HasGotItsRange(colors) && !volumic::AreSame(present, this->Given))
+  if (volumic::IsInitialized(colors) && !volumic::AreSame(present, this->Given))
   {
-    Complete(present, wanted);
-    wanted = present;
+    Complete(present, categories);
+    categories = present;
   }
   else
   {
-    this->Given = wanted;
+    this->Given = categories;
   }
-  volumic::SetCategories(colors, wanted);
+  volumic::SetCategories(colors, categories);
 }
 
 //------------------------------------------------------------------------------

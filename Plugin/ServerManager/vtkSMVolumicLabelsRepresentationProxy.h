@@ -4,17 +4,16 @@
  * @class   vtkSMVolumicLabelsRepresentationProxy
  * @brief   surfaces of labels, each in the colour of its label
  *
- * vtkSMVolumicSurfaceRepresentationProxy with a difference: a new display is coloured by the cell array
- * `Label` as soon as there are surfaces. The colour map has a category per label, with the name and
- * the colour of the field data. The categories follow the data until they are edited. After that only
- * categories of new labels are added.
+ * A new display is coloured by the cell array `Label` as soon as there are surfaces. The colour map has a
+ * category per label, with the name and colour of the field data. The categories follow the data until
+ * the user edits them. After that only categories of new labels are added.
  *
- * Displays of what is made of the surfaces, such as a clip, use this colour map, too, where they are
- * coloured by `Label`: that of the display in the same view, or else of any one. Displays with a
- * separate colour map, or made of the surfaces of several label maps, are left alone.
+ * Displays of downstream filters, such as Clip, use this colour map if they are coloured by `Label`. A
+ * display in the same view takes precedence. Displays with a separate colour map, or of the surfaces of
+ * several label maps, do not change.
  *
- * The legend is shown by default for up to twelve labels. This is decided anew when the number of
- * labels passes that limit.
+ * By default the legend is shown for up to twelve labels. It is shown or hidden again when the number of
+ * labels crosses this limit.
  */
 #ifndef vtkSMVolumicLabelsRepresentationProxy_h
 #define vtkSMVolumicLabelsRepresentationProxy_h
@@ -49,7 +48,7 @@ private:
   void OnSessionModified(vtkObject* caller, unsigned long event, void* data);
   /** Return this display's own colour map of `Label`, or null. */
   vtkSMProxy* FindLabelColors();
-  /** Give the colour map to the displays of what is made of the surfaces. */
+  /** Assign the colour map to the displays of downstream filters. */
   void ShareColors();
   /** Update colour map and legend after a run. */
   void FollowData();
@@ -57,10 +56,10 @@ private:
   void ShowLegend(vtkSMProxy* view);
 
   bool IsFollowing = false;
-  std::vector<volumic::ColorCategory> Given; ///< what was set here last
+  std::vector<volumic::ColorCategory> Given; ///< categories set last
   std::size_t Count = 0;                     ///< labels of the data
-  std::size_t CountInLegend = 0;             ///< labels when the legend was decided on
-  vtkMTimeType AdaptedTime = 0;              ///< of the data, when the colour map was set
+  std::size_t CountInLegend = 0;             ///< labels when the legend was last shown or hidden
+  vtkMTimeType AdaptedTime = 0;              ///< time of the data when the colour map was set
 };
 
 #endif

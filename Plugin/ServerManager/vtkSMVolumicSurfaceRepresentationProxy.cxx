@@ -26,7 +26,7 @@ vtkStandardNewMacro(vtkSMVolumicSurfaceRepresentationProxy);
 
 namespace
 {
-/** Of the largest components, by size; easy to tell apart, and apart from the grey of the others. */
+/** Colours of the largest components, by size. */
 constexpr std::array<std::array<double, 3>, 10> ComponentColors = { {
   { 0.89, 0.85, 0.76 }, { 0.12, 0.47, 0.71 }, { 1.00, 0.50, 0.05 }, { 0.17, 0.63, 0.17 },
   { 0.84, 0.15, 0.16 }, { 0.58, 0.40, 0.74 }, { 0.55, 0.34, 0.29 }, { 0.89, 0.47, 0.76 },
@@ -34,8 +34,8 @@ constexpr std::array<std::array<double, 3>, 10> ComponentColors = { {
 } };
 
 /**
- * Its setter isn't public, since others read it from XML only: the input's domain is one of many
- * of a proxy inside ParaView's own display, which XML can't replace.
+ * Gives access to a protected setter. The domain belongs to a subproxy of ParaView's display, which XML
+ * cannot replace.
  */
 struct InputArrayDomain : vtkSMInputArrayDomain
 {
@@ -135,7 +135,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptColors()
 {
   vtkSMPropertyHelper lookupTable(this, "LookupTable", true);
   vtkSMProxy* colors = lookupTable.GetNumberOfElements() > 0 ? lookupTable.GetAsProxy() : nullptr;
-  // What other displays share isn't ours to change.
+  // Do not change a colour map that other displays share.
   if (!colors || !vtkSMPropertyHelper(this, "UseSeparateColorMap", true).GetAsInt() ||
     !this->GetUsingScalarColoring())
   {
@@ -171,7 +171,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
   const int last = std::clamp(static_cast<int>(component->GetComponentRange(0)[1]), 0, others);
   const bool isOurs = static_cast<int>(volumic::CategoriesOf(colors).size()) ==
     this->LastComponent + 1;
-  if (last == this->LastComponent || (volumic::HasGotItsRange(colors) && !isOurs))
+  if (last == this->LastComponent || (volumic::IsInitialized(colors) && !isOurs))
   {
     return;
   }
@@ -182,7 +182,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
   }
   if (last == others)
   {
-    categories.push_back({ std::to_string(others), "others", volumic::ColorOfOthers });
+    categories.push_back({ std::to_string(others), "others", volumic::OtherColor });
   }
   volumic::SetCategories(colors, categories);
   this->LastComponent = last;
@@ -200,8 +200,8 @@ std::string vtkSMVolumicSurfaceRepresentationProxy::FindBlockToShow()
     return "";
   }
   std::vector<int> blocks = hierarchy->GetChildNodes(vtkDataAssembly::GetRootNode(), false);
-  const char* place = hint->GetAttribute("place");
-  if (place && std::strcmp(place, "last") == 0)
+  const char* position = hint->GetAttribute("position");
+  if (position && std::strcmp(position, "last") == 0)
   {
     std::reverse(blocks.begin(), blocks.end());
   }
@@ -221,7 +221,7 @@ std::string vtkSMVolumicSurfaceRepresentationProxy::FindBlockToShow()
 void vtkSMVolumicSurfaceRepresentationProxy::ChooseBlock()
 {
   vtkSMPropertyHelper selectors(this, "BlockSelectors", true);
-  // Other blocks than those chosen here, or given by ParaView, are the user's choice.
+  // Keep blocks that the user has chosen.
   const std::string given = this->ChosenBlock.empty() ? "/" : this->ChosenBlock;
   if (!this->IsNew || selectors.GetNumberOfElements() != 1 ||
     selectors.GetAsString(0) != given)

@@ -2,15 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkSMVolumicSurfaceRepresentationProxy
- * @brief   a surface with colours that suit its arrays, and of several blocks the one to look at
+ * @brief   display of surfaces with presets of colours and of the visible block
  *
- * ParaView's display of geometry, with three differences:
- * - Only arrays of points and cells are offered as colours. The field data of a surface are numbers
- *   about it, of which there are more than arrays.
- * - Arrays have colour maps of their own. That of `Component` has a colour for each of the ten
- *   largest components, and grey for the others. It follows new data until it is edited.
- * - With <ShownBlock place="first"/> or "last" among the hints of the proxy, a new display of
- *   blocks shows the first or last one that isn't empty, until somebody chooses others.
+ * Differences from ParaView's display of geometry:
+ * - Only point and cell arrays are offered for colouring, not the field data of a surface.
+ * - Arrays have separate colour maps. The map of `Component` has a colour for each of the ten largest
+ *   components, and grey for the others. It follows new data until the user edits it.
+ * - With the hint <ShownBlock position="first"/> or "last", a new display shows the first or last block
+ *   that is not empty, until the user chooses others.
  */
 #ifndef vtkSMVolumicSurfaceRepresentationProxy_h
 #define vtkSMVolumicSurfaceRepresentationProxy_h
@@ -40,13 +39,13 @@ protected:
   void CreateVTKObjects() override;
   int ReadXMLAttributes(vtkSMSessionProxyManager* manager, vtkPVXMLElement* element) override;
 
-  /** A new display gets presets, one of a saved state does not. */
+  /** False for a display of a saved state, which gets no presets. */
   bool IsNew = true;
 
-  /** Of a colour map that is this display's own, in use for the array. */
+  /** Set the separate colour map of an array. */
   virtual void AdaptColorsOf(
     const std::string& array, vtkSMProxy* colors, vtkPVDataInformation* data);
-  /** What is known of the input, or of a block of it; null: it has none. */
+  /** Return the data information of the input or of one of its blocks, or null. */
   vtkPVDataInformation* GetInputInformation(const std::string& block = "");
 
 private:
@@ -54,17 +53,14 @@ private:
   void operator=(const vtkSMVolumicSurfaceRepresentationProxy&) = delete;
 
   void OnPropertyModified(vtkObject* caller, unsigned long event, void* name);
-  /**
-   * Gives the colour map in use the values of the data: one that has none yet, or still those that
-   * it got here.
-   */
+  /** Set the current colour map unless the user has edited it. */
   void AdaptColors();
   void AdaptComponentColors(vtkSMProxy* colors, vtkPVDataInformation* data);
   void ChooseBlock();
-  /** Empty if there is none. */
+  /** Return its selector; empty if there is none. */
   std::string FindBlockToShow();
 
-  int LastComponent = -1; ///< the colour map that was set here last has the values 0 to it
+  int LastComponent = -1; ///< largest value in the colour map that was set last
   std::string ChosenBlock;
 };
 

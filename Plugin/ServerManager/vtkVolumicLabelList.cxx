@@ -45,7 +45,7 @@ void Append(vtkStringArray* rows, std::set<int>& known, vtkFieldData* data, cons
   }
 }
 
-/** Without what VTK writes about it: "ERROR: In FILE, line 1\nCLASS (0x1): TEXT\n\n". */
+/** Return TEXT of a message "ERROR: In FILE, line 1\nCLASS (0x1): TEXT\n\n". */
 std::string TextOf(const std::string& message)
 {
   const std::string end = "): ";

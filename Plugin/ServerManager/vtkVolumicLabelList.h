@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkVolumicLabelList
- * @brief   vtkLabelTable, for a client that cannot see its output
+ * @brief   the labels of a label map or of surfaces, as strings for a client
  *
- * The input is a label map, or what vtkLabelsToSurfaces puts out: then the labels are those in the
- * field data of the blocks. It is run for a panel, before a surface is requested: what is wrong with
- * the input is no error here, but a text.
+ * The input is a label map, or the output of vtkLabelsToSurfaces, whose labels are in the field data of
+ * the blocks. The panel runs this filter before Apply. Therefore an invalid input is not an error here:
+ * GetProblem() returns the message.
  */
 #ifndef vtkVolumicLabelList_h
 #define vtkVolumicLabelList_h
@@ -29,7 +29,7 @@ public:
   /** Return label, name, number of voxels, red, green and blue of each label of the last run. */
   vtkStringArray* GetRows();
 
-  /** Return what was wrong with the input; empty: nothing. */
+  /** Return the error message about the input; empty if it is valid. */
   const char* GetProblem();
 
 protected:

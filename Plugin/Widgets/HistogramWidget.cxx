@@ -136,7 +136,7 @@ void HistogramWidget::paintEvent(QPaintEvent*)
 //------------------------------------------------------------------------------
 void HistogramWidget::Drag(const QMouseEvent* event, bool isDone)
 {
-  // The buttons that are down, and the one that goes up.
+  // On release, buttons() lacks the button that is released.
   const bool isLeft = (event->buttons() | event->button()).testFlag(Qt::LeftButton);
   if (!isLeft || this->Counts.empty() || this->width() < 2)
   {

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * Shows a histogram of voxels as bars. The mouse drags a line at one value. A dotted line is at Otsu's
- * threshold. Heights are logarithmic, as background is most of a volume.
+ * Histogram of voxels with a line that the mouse drags. A dotted line marks Otsu's threshold. Heights are
+ * logarithmic, because most voxels are background.
  */
 class HistogramWidget : public QWidget
 {

@@ -9,19 +9,19 @@
 
 namespace
 {
-/** Has the label on the left of a property's widget stay beside its first row. */
+/** Align the label on the left of a property's widget with its first row. */
 void alignLabel(QWidget* widget, int heightOfRow)
 {
   auto* grid = widget->parentWidget()
     ? qobject_cast<QGridLayout*>(widget->parentWidget()->layout())
     : nullptr;
-  const int place = grid ? grid->indexOf(widget) : -1;
+  const int index = grid ? grid->indexOf(widget) : -1;
   int row = 0;
   int column = 0;
   int spans[2] = { 0, 0 };
-  if (place >= 0)
+  if (index >= 0)
   {
-    grid->getItemPosition(place, &row, &column, &spans[0], &spans[1]);
+    grid->getItemPosition(index, &row, &column, &spans[0], &spans[1]);
   }
   QLayoutItem* left = column > 0 ? grid->itemAtPosition(row, column - 1) : nullptr;
   if (left && left->widget())
@@ -47,7 +47,7 @@ QLabel* AddLabelBelow(QWidget* widget, const char* name)
   {
     row->addItem(item);
   }
-  // The first is what the value is edited by, buttons come after it.
+  // The editor; buttons follow it.
   row->setStretch(0, 1);
   delete former;
   auto* column = new QVBoxLayout(widget);
@@ -55,7 +55,7 @@ QLabel* AddLabelBelow(QWidget* widget, const char* name)
   column->setSpacing(2);
   column->addLayout(row);
   column->addWidget(label);
-  // Once the panel has it.
+  // The panel adds the widget to its layout after this call.
   QTimer::singleShot(
     0, widget, [widget, row] { alignLabel(widget, row->sizeHint().height()); });
   return label;

@@ -8,7 +8,7 @@ class QWidget;
 
 namespace volumic
 {
-/** Gives the widget of a property a second row, of text. The widget owns it. */
+/** Add a row of text below the widget of a property. The widget owns the label. */
 QLabel* AddLabelBelow(QWidget* widget, const char* name);
 }
 

@@ -45,7 +45,7 @@ QIcon swatch(const std::array<double, 3>& color)
   return QIcon(pixmap);
 }
 
-/** An item that is sorted by its number. */
+/** Return an item that is sorted by its number. */
 QStandardItem* numberItem(qlonglong number)
 {
   auto* item = new QStandardItem;
@@ -71,7 +71,7 @@ QList<QStandardItem*> newRow(const QString& name, int label, qlonglong voxels)
 struct pqLabelTablePropertyWidget::Internals
 {
   QStandardItemModel Rows;
-  QSortFilterProxyModel Shown; ///< what Search leaves of them
+  QSortFilterProxyModel Shown; ///< rows that Search leaves
   QLineEdit* Filter = nullptr;
   QTreeView* Table = nullptr;
   QPushButton* All = nullptr;
@@ -79,9 +79,9 @@ struct pqLabelTablePropertyWidget::Internals
   QLabel* Note = nullptr;
   vtkSMLabelsDomain* Domain = nullptr;
   QList<QVariant> Labels;
-  QString Problem; ///< why there are no labels
+  QString Problem; ///< error message if there are no labels
 
-  bool IsChecking = false; ///< boxes are set by this widget
+  bool IsChecking = false; ///< this widget sets the boxes
 
   int labelOf(int row) const
   {

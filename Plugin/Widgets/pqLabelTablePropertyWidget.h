@@ -13,14 +13,14 @@
 class QStandardItem;
 
 /**
- * A table of the labels of the input, for a property that lists some of them; an empty list means all
- * but the one that the property BackgroundLabel holds. A row has a box to check, the colour, the name,
- * the value and the number of voxels. A click on a title sorts. Search hides the rows that do not
- * contain its text. All checks the rows that are left, Only These unchecks all others. The box of one
- * of several selected rows sets the boxes of all of them. At least one row stays checked.
+ * A table of the labels of the input, for a property that lists some of them. An empty list means all
+ * labels except BackgroundLabel. A row has a box, the colour, the name, the value and the number of
+ * voxels. A click on a title sorts. Search hides the rows that do not contain its text. All checks the
+ * visible rows, Only These unchecks all others. The box of one of several selected rows sets the boxes of
+ * all of them. At least one row stays checked.
  *
  *   <IntVectorProperty panel_widget="LabelTable" ...>
- *     <LabelsDomain .../>  <!-- tells the labels -->
+ *     <LabelsDomain .../>
  */
 class pqLabelTablePropertyWidget : public pqPropertyWidget
 {
@@ -40,9 +40,9 @@ Q_SIGNALS:
   void labelsChanged();
 
 private Q_SLOTS:
-  /** Lists the labels of the input as it is now. */
+  /** List the labels of the current input. */
   void fillTable();
-  /** Checks what the property lists. */
+  /** Check the labels that the property lists. */
   void checkRows();
   void showNote();
   void search(const QString& text);
@@ -54,7 +54,7 @@ private:
   Q_DISABLE_COPY(pqLabelTablePropertyWidget)
 
   void buildPanel();
-  /** Set the property to what is checked. */
+  /** Set the property to the checked labels. */
   void readTable();
   bool isBackground(int label) const;
 

@@ -50,7 +50,7 @@
 
 namespace
 {
-/** An attribute of the hint PointList of a property. */
+/** Return an attribute of the hint PointList of a property. */
 bool HintOf(vtkSMProperty* property, const char* name, int value)
 {
   vtkPVXMLElement* hints = property->GetHints();
@@ -69,8 +69,8 @@ vtkCurveRepresentation* HandlesOf(vtkSMProxy* widget)
 }
 
 /**
- * Find the point under the mouse on what is drawn: surfaces and slices of volumes. Where a server
- * renders, the depths are there, and only ParaView's picking is left, on surfaces.
+ * Find the point under the mouse on surfaces and slices, by the depth buffer. With remote rendering use
+ * ParaView's picking, on surfaces only.
  */
 bool PickIn(vtkSMRenderViewProxy* view, double position[3])
 {
@@ -99,10 +99,10 @@ struct pqPointListPropertyWidget::Internals
   QCheckBox* Show = nullptr;
   QPushButton* Remove = nullptr;
   QList<QVariant> Coordinates;
-  int Row = -1; ///< of the panel, where there are no components to select
+  int Row = -1; ///< in the panel if the points do not select components
   vtkNew<vtkPolyDataMapper> LeftOut;
   vtkNew<vtkActor> LeftOutActor;
-  vtkWeakPointer<vtkRenderer> Renderer; ///< which has that
+  vtkWeakPointer<vtkRenderer> Renderer; ///< of LeftOutActor
 };
 
 //------------------------------------------------------------------------------
@@ -121,18 +121,18 @@ pqPointListPropertyWidget::pqPointListPropertyWidget(
   handles->SetDirectional(false);
   for (vtkProperty* line : { handles->GetLineProperty(), handles->GetSelectedLineProperty() })
   {
-    line->SetOpacity(0.0); // It cannot be grabbed then, either.
+    line->SetOpacity(0.0); // so it cannot be grabbed either
   }
-  for (vtkProperty* look : { handles->GetHandleProperty(), handles->GetSelectedHandleProperty() })
+  for (vtkProperty* handle : { handles->GetHandleProperty(), handles->GetSelectedHandleProperty() })
   {
-    look->SetColor(1.0, 0.0, 1.0); // Slices have all others.
-    look->LightingOff();
+    handle->SetColor(1.0, 0.0, 1.0); // stands out from slices
+    handle->LightingOff();
   }
   this->connect(this, SIGNAL(interaction()), SLOT(readHandles()));
   this->addPropertyLink(this, "coordinates", SIGNAL(coordinatesChanged()), property);
   this->placeHandles();
 
-  // The components that are left out: faint, but with depths to pick.
+  // Removed components are faint, but write depths for picking.
   this->Parts->LeftOut->ScalarVisibilityOff();
   this->Parts->LeftOutActor->SetMapper(this->Parts->LeftOut);
   this->Parts->LeftOutActor->GetProperty()->SetOpacity(0.3);
@@ -240,7 +240,7 @@ void pqPointListPropertyWidget::fillTable()
   parts.Table->setRowCount(n);
   for (int row = 0; row < n; ++row)
   {
-    // As in messages of the filter, points are counted from 0.
+    // Points are counted from 0, as in messages of the filter.
     parts.Table->setVerticalHeaderItem(row, new QTableWidgetItem(QString::number(row)));
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -323,7 +323,7 @@ void pqPointListPropertyWidget::placeHandles()
   {
     positions.push_back(x.toDouble());
   }
-  // A poly line has one point at least: it is neither seen nor grabbed if there is none here.
+  // A poly line has at least one point. Hide it if the list is empty.
   vtkCurveRepresentation* handles = HandlesOf(this->widgetProxy());
   handles->GetHandleProperty()->SetOpacity(positions.empty() ? 0.0 : 1.0);
   if (!positions.empty())
@@ -373,7 +373,7 @@ void pqPointListPropertyWidget::updateRow()
        "Drag a point to move it."));
   auto* grid = qobject_cast<QGridLayout*>(
     this->parentWidget() ? this->parentWidget()->layout() : nullptr);
-  QWidget* place = selects ? this->parentWidget()->findChild<QWidget*>("MinimumComponentVolume")
+  QWidget* replaced = selects ? this->parentWidget()->findChild<QWidget*>("MinimumComponentVolume")
                            : nullptr;
   if (!grid || grid->indexOf(this) < 0)
   {
@@ -387,7 +387,7 @@ void pqPointListPropertyWidget::updateRow()
   };
   parts.Row = parts.Row < 0 ? rowOf(this) : parts.Row;
   grid->removeWidget(this);
-  grid->addWidget(this, place ? rowOf(place) : parts.Row, 0, 1, -1);
+  grid->addWidget(this, replaced ? rowOf(replaced) : parts.Row, 0, 1, -1);
   this->updateWidgetVisibility();
 }
 
@@ -407,7 +407,7 @@ bool pqPointListPropertyWidget::eventFilter(QObject* object, QEvent* event)
 {
   if (event->type() == QEvent::Enter && this->isWidgetVisible())
   {
-    static_cast<QWidget*>(object)->setFocus(); // The key is for it, also after a click on Apply.
+    static_cast<QWidget*>(object)->setFocus(); // for the key P, also after a click on Apply
   }
   return this->Superclass::eventFilter(object, event);
 }
@@ -434,7 +434,7 @@ void pqPointListPropertyWidget::showLeftOut(bool isShown)
     parts.Renderer->RemoveActor(parts.LeftOutActor);
   }
   auto* view = qobject_cast<pqRenderView*>(this->view());
-  // On a remote server they are out of reach.
+  // Null on a remote server.
   auto* filter = vtkDeformableSurface::SafeDownCast(this->proxy()->GetClientSideObject());
   if (!isShown || !view || !filter)
   {

@@ -13,18 +13,17 @@
 class QTableWidgetItem;
 
 /**
- * A list of points for a repeatable property of three numbers each: a table, and in the view the
- * handles of ParaView's poly line, without the line. `P` adds the point under the mouse, on a
- * surface or a slice. A handle can be dragged.
+ * A list of points for a repeatable property with three numbers per point: a table, and in the view the
+ * handles of ParaView's poly line without the line. `P` adds the point under the mouse, on a surface or a
+ * slice. Handles can be dragged.
  *
  *   <DoubleVectorProperty panel_widget="PointList" ...>
  *     <Hints>
  *       <PointList show="0" selects="1"/>
  *
- * show: whether Show Points is checked at first (default: 1). selects: the points select
- * components, too, if the property KeepComponents says so. Then the list is named Points and takes
- * the row of MinimumComponentVolume. While it is shown, the view has a faint surface of all other
- * components.
+ * show: whether Show Points is initially checked (default: 1). selects: the points also select
+ * components, depending on KeepComponents. The list is then named Points, in the row of
+ * MinimumComponentVolume, and the view has a faint surface of all removed components.
  */
 class pqPointListPropertyWidget : public pqInteractivePropertyWidget
 {
@@ -57,10 +56,10 @@ private Q_SLOTS:
   void addPointInTheCentre();
   void removeSelectedPoints();
   void readCell(QTableWidgetItem* item);
-  /** Take the positions of the handles, one of which is dragged. */
+  /** Set the coordinates to the positions of the handles. */
   void readHandles();
   void updateRow();
-  /** The components that are left out have changed. */
+  /** Called if the removed components have changed. */
   void forgetLeftOut();
 
 private:
@@ -68,7 +67,7 @@ private:
 
   void buildPanel();
   void addPoint(const double position[3]);
-  /** Take over new coordinates, in the table and the handles, and signal them. */
+  /** Set the coordinates in the table and the handles, and emit coordinatesChanged(). */
   void change(const QList<QVariant>& coordinates);
   void fillTable();
   void placeHandles();

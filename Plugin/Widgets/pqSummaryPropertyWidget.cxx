@@ -37,13 +37,13 @@ QString TextOf(vtkPVDataInformation* data, const char* name)
     : QString();
 }
 
-/** With thousands separators. */
+/** Return the number with thousands separators. */
 QString Count(double value)
 {
   return QLocale(QLocale::English).toString(value, 'f', 0);
 }
 
-/** With three digits: 0.0123, 12.3, 1,230, 1.23 million. */
+/** Return the number with three digits: 0.0123, 12.3, 1,230, 1.23 million. */
 QString ThreeDigits(double value)
 {
   const double size = std::abs(value);
@@ -66,7 +66,6 @@ QString UnitOf(vtkSMSourceProxy* filter)
   return unit.isEmpty() ? QObject::tr("world units") : unit;
 }
 
-/** Of blocks of labels. */
 QString SummaryOfLabels(vtkPVDataInformation* data, const QString& why)
 {
   const QString lost = TextOf(data, "LostLabels");
@@ -82,7 +81,7 @@ QString SummaryOf(vtkPVDataInformation* data, const QString& unit)
   {
     return QObject::tr("none yet");
   }
-  const QString why = QString::fromStdString(volumic::WhyUnfinished(data));
+  const QString why = QString::fromStdString(volumic::UnfinishedReason(data));
   if (data->IsCompositeDataSet())
   {
     return SummaryOfLabels(data, why);

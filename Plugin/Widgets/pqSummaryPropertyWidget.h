@@ -8,9 +8,8 @@
 class QLabel;
 
 /**
- * Shows what the last run of the filter has produced. The numbers are the field data of its first
- * output, which must be that of vtkDeformableSurface or vtkLabelsToSurfaces; the unit of lengths is
- * the field data LengthUnit of its input, if it has that.
+ * Shows the field data of the first output of a vtkDeformableSurface or vtkLabelsToSurfaces. The unit of
+ * lengths is the field data LengthUnit of the input, if it has this array.
  *
  *   <Property name="Result" label="Result" panel_widget="Summary"/>
  */

@@ -24,7 +24,7 @@
 
 namespace
 {
-/** Whether these may be the Hounsfield units of a CT of a body: from air, -1000, to bone. */
+/** Return whether a range may be that of Hounsfield units, from air (-1000) to bone. */
 bool areHounsfieldUnits(double low, double high)
 {
   return low <= -800.0 && low >= -4096.0 && high >= 300.0 && high <= 32767.0;
@@ -37,7 +37,7 @@ pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWid
   , Label(volumic::AddLabelBelow(parent, "ValueRange"))
   , Histogram(new volumic::HistogramWidget(parent))
 {
-  // Beside the number, a slider is too short at the width that the panel has at first.
+  // Beside the number, the slider is too short at the initial width of the panel.
   auto* slider = parent->findChild<QSlider*>();
   auto* column = qobject_cast<QBoxLayout*>(parent->layout());
   if (slider && column)
@@ -46,8 +46,8 @@ pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWid
     column->insertWidget(column->indexOf(this->Label), slider);
     column->insertWidget(column->indexOf(slider), this->Histogram);
   }
-  this->Histogram->Dragged = [this](double value, bool isDone) { this->give(value, isDone); };
-  this->connect(this->Label, SIGNAL(linkActivated(const QString&)), SLOT(take(const QString&)));
+  this->Histogram->Dragged = [this](double value, bool isDone) { this->setValue(value, isDone); };
+  this->connect(this->Label, SIGNAL(linkActivated(const QString&)), SLOT(onLink(const QString&)));
   this->showRange();
   this->showValue();
   pqCoreUtilities::connect(
@@ -122,13 +122,13 @@ void pqValueRangeDecorator::showUpper()
 }
 
 //------------------------------------------------------------------------------
-void pqValueRangeDecorator::take(const QString& value)
+void pqValueRangeDecorator::onLink(const QString& value)
 {
-  this->give(value.toDouble(), true);
+  this->setValue(value.toDouble(), true);
 }
 
 //------------------------------------------------------------------------------
-void pqValueRangeDecorator::give(double value, bool isDone)
+void pqValueRangeDecorator::setValue(double value, bool isDone)
 {
   pqPropertyWidget* widget = this->parentWidget();
   vtkSMUncheckedPropertyHelper(widget->property()).Set(0, value);

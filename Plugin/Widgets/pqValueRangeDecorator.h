@@ -12,12 +12,11 @@ class HistogramWidget;
 }
 
 /**
- * Shows the range of the domain of a property of one number below its widget, as Contour does: "Value
- * Range: [0, 1300]". If it is that of Hounsfield units, values of bone and skin are offered. Else a
- * second threshold is offered if the domain has one. With several time steps, the label reports that
- * all have one value. The slider gets a row of its own below the histogram of the voxels, if the
- * domain (vtkSMOtsuThresholdDomain) has one. The histogram shows the range to Upper Value if the proxy
- * uses it.
+ * Shows the range of a property below its widget: "Value Range: [0, 1300]". If it is a range of
+ * Hounsfield units, links set the values of bone and skin. Otherwise a link sets the second threshold of
+ * the domain (vtkSMOtsuThresholdDomain), if there is one. A note says that all time steps have one value.
+ * The slider is below the histogram of the domain, which shows the range to Upper Value if the proxy uses
+ * it.
  *
  *   <PropertyWidgetDecorator type="ValueRange"/>
  */
@@ -33,15 +32,15 @@ private Q_SLOTS:
   void showRange();
   void showValue();
   void showUpper();
-  void take(const QString& value);
+  void onLink(const QString& value);
 
 private:
   Q_DISABLE_COPY(pqValueRangeDecorator)
 
-  /** Set the value in the panel; with isDone also for Auto Apply. */
-  void give(double value, bool isDone);
+  /** Set the value in the panel. With isDone, Auto Apply applies it. */
+  void setValue(double value, bool isDone);
 
-  QLabel* Label; ///< the property's widget owns both
+  QLabel* Label; ///< owned by the property's widget, as Histogram
   volumic::HistogramWidget* Histogram;
 };
 

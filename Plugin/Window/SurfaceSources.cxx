@@ -16,24 +16,24 @@
 namespace volumic
 {
 //------------------------------------------------------------------------------
-bool GivesSurfaces(pqPipelineSource* source)
+bool ProducesSurfaces(pqPipelineSource* source)
 {
   const QString name = source->getProxy()->GetXMLName();
   return name == "DeformableSurface" || name == "VolumeToSurface" || name == "LabelsToSurfaces";
 }
 
 //------------------------------------------------------------------------------
-bool IsOfSurface(pqPipelineSource* source)
+bool IsDownstreamOfSurface(pqPipelineSource* source)
 {
   auto* filter = qobject_cast<pqPipelineFilter*>(source);
-  return GivesSurfaces(source) ||
-    (filter && filter->getInput(0) && IsOfSurface(filter->getInput(0)));
+  return ProducesSurfaces(source) ||
+    (filter && filter->getInput(0) && IsDownstreamOfSurface(filter->getInput(0)));
 }
 
 //------------------------------------------------------------------------------
-std::string WhyUnfinished(vtkPVDataInformation* surfaces)
+std::string UnfinishedReason(vtkPVDataInformation* surfaces)
 {
-  // Of blocks there is one each.
+  // Blocks of labels have one value each.
   vtkPVArrayInformation* reasons =
     surfaces->GetArrayInformation("StopReason", vtkDataObject::FIELD);
   for (int i = 0; reasons && i < reasons->GetNumberOfStringValues(); ++i)

@@ -13,16 +13,16 @@ class vtkPVDataInformation;
 
 namespace volumic
 {
-/** Whether it is a filter of Volumic that gives surfaces. */
-bool GivesSurfaces(pqPipelineSource* source);
+/** Return whether the source is a filter of Volumic that produces surfaces. */
+bool ProducesSurfaces(pqPipelineSource* source);
 
-/** Whether it is one, or comes after one. */
-bool IsOfSurface(pqPipelineSource* source);
+/** Return whether the source is such a filter, or downstream of one. */
+bool IsDownstreamOfSurface(pqPipelineSource* source);
 
-/** The StopReason of surfaces whose run was stopped; empty for those of a finished run. */
-std::string WhyUnfinished(vtkPVDataInformation* surfaces);
+/** Return the StopReason of a stopped run; empty for a finished run. */
+std::string UnfinishedReason(vtkPVDataInformation* surfaces);
 
-/** Those of the window, which has none yet when a plugin is loaded at the start. */
+/** Return the properties panels of the window. There are none before its startup has finished. */
 QList<pqPropertiesPanel*> PropertiesPanels();
 }
 

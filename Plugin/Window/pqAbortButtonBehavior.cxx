@@ -28,9 +28,9 @@
 
 namespace
 {
-/** Limits of the pause between two updates of the window: five texts per second can be read. */
-constexpr qint64 LeastPause = 200;
-constexpr qint64 MostPause = 1000;
+/** Limits of the pause between two updates of the window, in milliseconds. */
+constexpr qint64 MinimumPause = 200;
+constexpr qint64 MaximumPause = 1000;
 /** The pause is this many times the duration of the last update. */
 constexpr qint64 PausePerUpdate = 10;
 
@@ -58,7 +58,7 @@ QAbstractButton* findAbortButton()
   return nullptr;
 }
 
-QPoint placeOf(const QMouseEvent* event)
+QPoint positionOf(const QMouseEvent* event)
 {
 #if QT_VERSION < QT_VERSION_CHECK(6, 0, 0)
   return event->globalPos();
@@ -68,8 +68,8 @@ QPoint placeOf(const QMouseEvent* event)
 }
 
 /**
- * Return whether the event is input of the user. Releases of mouse buttons and mere movements of the
- * mouse are not: they start nothing.
+ * Return whether the event is input of the user. Mouse moves and button releases are not, because they
+ * start nothing.
  */
 bool isInput(const QEvent* event)
 {
@@ -110,7 +110,8 @@ bool isQuit(const QObject* object, QEvent* event)
 }
 
 /**
- * ParaView's timers apply, render and look for new data. One whose event is swallowed comes again.
+ * Return whether the event is of a timer of ParaView: they apply, render and check for new data. If an
+ * event is filtered out, the timer repeats it.
  */
 bool isTimerOfParaView(const QObject* object, const QEvent* event)
 {
@@ -164,7 +165,7 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
 {
   this->Button = findAbortButton();
   pqServer* server = pqApplicationCore::instance()->getActiveServer();
-  // While tests are played, ParaView 6.1 doesn't process events either.
+  // During playback of tests, ParaView 6.1 does not process events either.
   if (!this->Button || !server || !server->isProgressPending() ||
     pqCoreConfiguration::instance()->testScriptCount() > 0)
   {
@@ -172,23 +173,23 @@ void pqAbortButtonBehavior::onStart(vtkObject* filter)
   }
   this->Running = vtkAlgorithm::SafeDownCast(filter);
   this->connect(this->Button, SIGNAL(pressed()), SLOT(stop()), Qt::UniqueConnection);
-  // With a window of the system's own, the progress bar is redrawn without the 3D views.
+  // With a native window, the progress bar is redrawn without the 3D views.
   QWidget* bar = this->Button->parentWidget();
   bar->setAttribute(Qt::WA_DontCreateNativeAncestors);
   bar->setAttribute(Qt::WA_NativeWindow);
   pqProgressManager* manager = progressManager();
   if (!this->Button->isEnabled())
   {
-    this->IsLit = true;
+    this->HasEnabledButton = true;
     manager->setEnableAbort(true);
   }
-  // The manager ignores ParaView's own reports, which come more often, and leaves input to this object.
+  // The manager then ignores ParaView's more frequent reports, and does not block input.
   manager->lockProgress(this);
   manager->unblockEvents(true);
   this->connect(this, SIGNAL(progress(const QString&, int)), manager,
     SLOT(setProgress(const QString&, int)), Qt::UniqueConnection);
   QCoreApplication::instance()->installEventFilter(this);
-  this->Pause = LeastPause;
+  this->Pause = MinimumPause;
   this->SinceUpdate.start();
 }
 
@@ -205,7 +206,7 @@ void pqAbortButtonBehavior::onProgress()
     this->Running->GetProgressText(), static_cast<int>(100.0 * this->Running->GetProgress()));
   pqCoreUtilities::processEvents();
   this->Pause =
-    std::clamp(PausePerUpdate * this->SinceUpdate.restart(), LeastPause, MostPause);
+    std::clamp(PausePerUpdate * this->SinceUpdate.restart(), MinimumPause, MaximumPause);
   this->IsUpdating = false;
   if (this->IsQuitting)
   {
@@ -230,12 +231,12 @@ void pqAbortButtonBehavior::onEnd()
   {
     manager->unlockProgress(this);
     manager->unblockEvents(false);
-    if (this->IsLit)
+    if (this->HasEnabledButton)
     {
       manager->setEnableAbort(false);
     }
   }
-  this->IsLit = false;
+  this->HasEnabledButton = false;
   if (this->IsQuitting)
   {
     this->quit();
@@ -248,7 +249,7 @@ void pqAbortButtonBehavior::quit()
   pqServer* server = pqApplicationCore::instance()->getActiveServer();
   if (server && server->isProgressPending())
   {
-    QTimer::singleShot(static_cast<int>(LeastPause), this, SLOT(quit()));
+    QTimer::singleShot(static_cast<int>(MinimumPause), this, SLOT(quit()));
     return;
   }
   this->IsQuitting = false;
@@ -271,9 +272,9 @@ bool pqAbortButtonBehavior::isPressOfButton(QObject* object, QEvent* event) cons
   {
     return false;
   }
-  const QPoint place = this->Button->mapFromGlobal(placeOf(static_cast<QMouseEvent*>(event)));
+  const QPoint position = this->Button->mapFromGlobal(positionOf(static_cast<QMouseEvent*>(event)));
   return (object == this->Button || object == this->Button->parentWidget()->windowHandle()) &&
-    this->Button->rect().contains(place);
+    this->Button->rect().contains(position);
 }
 
 //------------------------------------------------------------------------------

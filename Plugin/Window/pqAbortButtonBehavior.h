@@ -16,17 +16,15 @@ class vtkAlgorithm;
 class vtkObject;
 
 /**
- * Lets the abort button in the status bar stop a run of Volumic's filters.
+ * Lets the abort button in the status bar stop a run of Volumic's filters, with the built-in server.
  *
- * During a run this object alone updates the progress bar and processes events, in pauses that are
- * ten times the duration of the last update. ParaView 6.1 lights up the button, too, but rejects all
- * presses of the mouse. Earlier versions leave the button grey and process no events.
+ * During a run only this object updates the progress bar and processes events. The pause between two
+ * updates is ten times the duration of the last one. ParaView 6.1 enables the button, too, but rejects
+ * mouse presses. Earlier versions do not enable it and process no events.
  *
- * During a run the window accepts only a press of that button: what shortcuts and timers start would
- * change a pipeline that is executing. To quit or to close the window stops the run. The window closes
- * after it. Other input shows a message in the status bar.
- *
- * This works with the built-in server only. Other servers run outside the window's reach.
+ * During a run the window accepts only a press of the button, because shortcuts and timers could change
+ * the executing pipeline. Quitting or closing the window stops the run; the window closes after it. Other
+ * input shows a message in the status bar.
  */
 class pqAbortButtonBehavior : public QObject
 {
@@ -36,7 +34,7 @@ public:
   pqAbortButtonBehavior();
   ~pqAbortButtonBehavior() override;
 
-  /** Called by ParaView when it has loaded the plugin, and when it ends. */
+  /** ParaView calls these after loading the plugin, and at exit. */
   void startup();
   void shutdown();
 
@@ -57,14 +55,14 @@ private Q_SLOTS:
   void quit();
 
 private:
-  /** Return whether the event is a press of the button, on its way there. */
+  /** Return whether the event is a press of the button. */
   bool isPressOfButton(QObject* object, QEvent* event) const;
 
   QPointer<QAbstractButton> Button;
   vtkWeakPointer<vtkAlgorithm> Running;
-  QElapsedTimer SinceUpdate; ///< since the window was updated
+  QElapsedTimer SinceUpdate; ///< time since the last update of the window
   qint64 Pause = 0;          ///< until the next update, in milliseconds
-  bool IsLit = false;        ///< This object has lit up the button.
+  bool HasEnabledButton = false; ///< by this object
   bool IsUpdating = false;
   bool IsQuitting = false;
 

@@ -47,7 +47,7 @@ void pqLabelLegendBehavior::watchPanels()
 //------------------------------------------------------------------------------
 void pqLabelLegendBehavior::add(pqRepresentation* display)
 {
-  // The display itself does not know its input and its view yet.
+  // The display has no input and no view yet.
   vtkSMProxy* of = vtkSMPropertyHelper(display->getProxy(), "Input", true).GetAsProxy();
   auto* filter =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineFilter*>(of);
@@ -55,7 +55,7 @@ void pqLabelLegendBehavior::add(pqRepresentation* display)
     ? filter->getAllInputs().first()
     : nullptr;
   pqView* view = pqActiveObjects::instance().activeView();
-  pqDataRepresentation* former = view && input && volumic::IsOfSurface(input->getSource())
+  pqDataRepresentation* former = view && input && volumic::IsDownstreamOfSurface(input->getSource())
     ? input->getRepresentation(view)
     : nullptr;
   auto* proxy = vtkSMPVRepresentationProxy::SafeDownCast(former ? former->getProxy() : nullptr);

@@ -11,15 +11,15 @@ class pqDataRepresentation;
 class pqRepresentation;
 
 /**
- * At Apply ParaView shows the legend of each new display that is coloured by an array. What is made of
- * surfaces of labels, such as a Clip, has none where the surfaces have none.
+ * Hides the legend of a filter downstream of surfaces, such as Clip, if the surfaces have no legend. At
+ * Apply ParaView shows the legend of each new display that is coloured by an array.
  */
 class pqLabelLegendBehavior : public QObject
 {
   Q_OBJECT
 
 public:
-  /** Called by ParaView when it has loaded the plugin, and when it ends. */
+  /** ParaView calls these after loading the plugin, and at exit. */
   void startup();
   void shutdown();
 

@@ -22,7 +22,7 @@ pqUnfinishedBehavior::~pqUnfinishedBehavior() = default;
 void pqUnfinishedBehavior::startup()
 {
   this->connect(pqApplicationCore::instance()->getServerManagerModel(),
-    SIGNAL(dataUpdated(pqPipelineSource*)), SLOT(look(pqPipelineSource*)));
+    SIGNAL(dataUpdated(pqPipelineSource*)), SLOT(onDataUpdated(pqPipelineSource*)));
   QTimer::singleShot(0, this, SLOT(watchPanels()));
 }
 
@@ -40,32 +40,32 @@ void pqUnfinishedBehavior::watchPanels()
 {
   for (pqPropertiesPanel* panel : volumic::PropertiesPanels())
   {
-    this->connect(panel, SIGNAL(applied(pqProxy*)), SLOT(goOn(pqProxy*)));
+    this->connect(panel, SIGNAL(applied(pqProxy*)), SLOT(resume(pqProxy*)));
   }
 }
 
 //------------------------------------------------------------------------------
-void pqUnfinishedBehavior::look(pqPipelineSource* source)
+void pqUnfinishedBehavior::onDataUpdated(pqPipelineSource* source)
 {
-  // Once Apply, which may be what has run it, is through with it.
-  const QPointer<pqPipelineSource> seen = source;
+  // After Apply, which may have run the source.
+  const QPointer<pqPipelineSource> updated = source;
   QTimer::singleShot(0, this,
-    [this, seen]
+    [this, updated]
     {
-      auto* proxy = vtkSMSourceProxy::SafeDownCast(seen ? seen->getProxy() : nullptr);
-      this->Unfinished.removeAll(seen);
-      if (proxy && proxy->GetOutputPortsCreated() && volumic::GivesSurfaces(seen) &&
+      auto* proxy = vtkSMSourceProxy::SafeDownCast(updated ? updated->getProxy() : nullptr);
+      this->Unfinished.removeAll(updated);
+      if (proxy && proxy->GetOutputPortsCreated() && volumic::ProducesSurfaces(updated) &&
         !vtkPVGeneralSettings::GetInstance()->GetAutoApply() &&
-        !volumic::WhyUnfinished(proxy->GetOutputPort(0u)->GetDataInformation()).empty())
+        !volumic::UnfinishedReason(proxy->GetOutputPort(0u)->GetDataInformation()).empty())
       {
-        this->Unfinished.append(seen);
-        seen->setModifiedState(pqProxy::MODIFIED);
+        this->Unfinished.append(updated);
+        updated->setModifiedState(pqProxy::MODIFIED);
       }
     });
 }
 
 //------------------------------------------------------------------------------
-void pqUnfinishedBehavior::goOn(pqProxy* applied)
+void pqUnfinishedBehavior::resume(pqProxy* applied)
 {
   auto* source = qobject_cast<pqPipelineSource*>(applied);
   if (source && this->Unfinished.removeAll(source) > 0)

@@ -10,8 +10,8 @@
 #include <pqPipelineSource.h>
 
 /**
- * After a run that was stopped Apply stays active, and goes on, though no property has changed. Not
- * with Auto Apply, with which nothing could stop it.
+ * Keeps Apply active after a stopped run, and lets Apply resume the run. Not with Auto Apply, which would
+ * resume at once.
  */
 class pqUnfinishedBehavior : public QObject
 {
@@ -21,14 +21,14 @@ public:
   pqUnfinishedBehavior();
   ~pqUnfinishedBehavior() override;
 
-  /** Called by ParaView when it has loaded the plugin, and when it ends. */
+  /** ParaView calls these after loading the plugin, and at exit. */
   void startup();
   void shutdown();
 
 private Q_SLOTS:
   void watchPanels();
-  void look(pqPipelineSource* source);
-  void goOn(pqProxy* source);
+  void onDataUpdated(pqPipelineSource* source);
+  void resume(pqProxy* source);
 
 private:
   QList<QPointer<pqPipelineSource>> Unfinished;

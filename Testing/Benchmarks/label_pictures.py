@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of labels: surfaces of an atlas beside those of VTK's filters, one mesh of grains with flat
-box faces, and a tetrahedral mesh cut open."""
+"""Pictures of labels: surfaces of an atlas by Volumic and by VTK, one mesh of grains, and a
+tetrahedral mesh cut open."""
 
 import numpy as np
 import render
@@ -16,15 +16,15 @@ from vtkmodules.vtkFiltersGeneral import vtkDiscreteFlyingEdges3D
 from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-CLOSE_LABELS = (1, 3, 4, 5)  # of the atlas of white matter: corpus callosum and middle peduncle
-SIZE = 32  # voxels of the grains along each axis
+CLOSE_LABELS = (1, 3, 4, 5)  # white matter atlas: corpus callosum, middle cerebellar peduncle
+SIZE = 32  # voxels along each axis
 GRAINS = 20
-TAKEN_AWAY = 6  # those nearest to the camera
+REMOVED = 6  # grains nearest to the camera
 LINES = 0.1, 0.1, 0.1
 
 
 def surfaces_of(image, labels=()):
-    """(surface, colour) of each label that has a surface."""
+    """Return (surface, colour) of each label that has a surface."""
     surfaces = volumic.vtkLabelsToSurfaces()
     surfaces.SetInputData(image)
     for label in labels:
@@ -39,7 +39,7 @@ def color_of(block):
 
 
 def stairs_of(image, label, smoothed):
-    """What vtkDiscreteFlyingEdges3D makes of a label, smoothed with VTK's defaults or not."""
+    """Run vtkDiscreteFlyingEdges3D on a label; smooth the surface with VTK's defaults if requested."""
     contour = vtkDiscreteFlyingEdges3D()
     contour.SetInputData(image)
     contour.SetValue(0, label)
@@ -52,7 +52,7 @@ def stairs_of(image, label, smoothed):
 
 
 def label_picture(path, width):
-    """Four panels, each so many pixels wide: all surfaces, and a few beside those of others."""
+    """Draw four panels of this width: all surfaces, and a few labels by three filters."""
     volume = volumic.read(path)
     image = make_image(volume.array, volume.spacing, volume.origin, volume.direction)
     frame = render.Frame(volume.space)
@@ -65,16 +65,16 @@ def label_picture(path, width):
         bounds = np.where([True, False] * 3, bounds.min(axis=0), bounds.max(axis=0))
         actors = [render.surface_actor(surface, color) for surface, color in surfaces]
         for actor in actors:
-            actor.GetProperty().SetInterpolationToFlat()  # triangles as they are
+            actor.GetProperty().SetInterpolationToFlat()  # shows the triangles
         panels.append(render.draw(actors, (width, width), frame, "LLAS", "S", bounds, zoom=1.05))
     captions = [(f"All {len(everything)} labels", "vtkLabelsToSurfaces"),
                 ("Four of them", "vtkDiscreteFlyingEdges3D"),
-                ("smoothed", "vtkWindowedSincPolyDataFilter"), ("and here", "vtkLabelsToSurfaces")]
+                ("smoothed", "vtkWindowedSincPolyDataFilter"), ("the same", "vtkLabelsToSurfaces")]
     return render.compose([panels], [captions])
 
 
 def interface_picture(width):
-    """Two panels, each so many pixels wide: all grains, and those behind the nearest ones."""
+    """Draw two panels of this width: all grains, and all but the nearest ones."""
     surfaces = volumic.vtkLabelsToSurfaces()
     surfaces.SetInputData(image_of(polycrystal(SIZE, GRAINS)))
     surfaces.SetBoxFacesToFlat()
@@ -83,16 +83,16 @@ def interface_picture(width):
     towards = frame.vector("LLAS")
     blocks = sorted(blocks_of(surfaces.GetOutput()),
                     key=lambda block: np.dot(block.GetCenter(), towards))
-    lines = vtkPolyData()  # where three labels and more meet
+    lines = vtkPolyData()  # junction lines
     lines.SetPoints(mesh.GetPoints())
     lines.SetLines(mesh.GetLines())
     panels = [render.draw([*(render.surface_actor(block, color_of(block), edges=True)
                              for block in shown), render.line_actor(lines, LINES, 2.5)],
                           (width, width * 3 // 4), frame, "LLAS", "S", mesh.GetBounds())
-              for shown in (blocks, blocks[:-TAKEN_AWAY])]
+              for shown in (blocks, blocks[:-REMOVED])]
     return render.compose([panels], [[
         (f"{GRAINS} labels, one mesh of {mesh.GetNumberOfPolys()} triangles",),
-        ("without those in front: each interface is there once",)]])
+        ("without the front grains: each interface exists once",)]])
 
 
 def tetrahedra_picture(path, width):

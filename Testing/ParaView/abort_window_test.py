@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """The abort button in the status bar of ParaView's window stops a run, and so does quitting. The window
-rejects all other input, and takes little of the time.
+rejects all other input, with a small overhead.
 
-By real mouse and keys: a window that plays events takes none during a run. Where things are is seen in
-pictures of the window.
+By real mouse and keys, because a window that plays events ignores them during a run. Positions are found
+in pictures of the window.
 """
 
 import ast
@@ -25,10 +25,10 @@ from paraview import simple
 
 EXTENT = [-30, 30] * 3
 
-# Runs in the window: tells of each run of a filter, and what the view shows when nothing else is
-# done. A run that has begun to iterate does nothing but report while there is the file HOLD: the hand
-# has its time, however fast or slow the machine is.
-TELL_OF_RUNS = window.WATCH_FILTERS + f"""
+# Runs in the window: reports each run of a filter, and the content of the view when the window is idle.
+# While the file HOLD exists, a run only reports progress once it has begun to iterate, so that the test
+# does not depend on the speed of the machine.
+REPORT_RUNS = window.WATCH_FILTERS + f"""
 import os
 import time
 from paraview import simple
@@ -40,19 +40,19 @@ simple.ResetCamera()
 shown = []
 
 def attend(proxy, algorithm):
-    told = set()
+    reported = set()
     def progress(caller, event):
-        if ", iteration" in (caller.GetProgressText() or "") and not told:
-            told.add(1)
+        if ", iteration" in (caller.GetProgressText() or "") and not reported:
+            reported.add(1)
             print("Iterations have begun.")
             while os.path.exists(HOLD):
                 time.sleep(0.02)
                 caller.UpdateProgress(caller.GetProgress())
-                if caller.GetAbortExecute() and 2 not in told:
-                    told.add(2)
-                    print("It is asked to stop.")
+                if caller.GetAbortExecute() and 2 not in reported:
+                    reported.add(2)
+                    print("Stop is requested.")
     def end(caller, event):
-        told.clear()
+        reported.clear()
         caller.SetProgressText("")
         surface = caller.GetOutputDataObject(0)
         reason = surface.GetFieldData().GetAbstractArray("StopReason")
@@ -65,7 +65,7 @@ def attend(proxy, algorithm):
     algorithm.AddObserver("ProgressEvent", progress)
     algorithm.AddObserver("EndEvent", end)
 
-def tell_of_the_view(*_):
+def report_view(*_):
     if view.SMProxy.GetSession().GetPendingProgress():
         return
     now = [display.GetRepresentedDataInformation().GetNumberOfPoints()
@@ -75,14 +75,14 @@ def tell_of_the_view(*_):
         shown[:] = now
         print("View:", (len(simple.GetSources()), *now))
 
-view.GetInteractor().AddObserver("TimerEvent", tell_of_the_view)
+view.GetInteractor().AddObserver("TimerEvent", report_view)
 view.GetInteractor().CreateRepeatingTimer(100)
 print("Window is ready.")
 """
 
 
-# Runs in the window: reports the processor time of previews that the window does not notice, and of
-# the same ones that it shows.
+# Runs in the window: reports the processor time of previews that are no source of the pipeline, and of
+# the same previews that are.
 MEASURE = """
 import os
 from paraview import servermanager
@@ -93,7 +93,7 @@ simple.Show(volume)
 simple.Render()
 handler = servermanager.ActiveConnection.Session.GetProgressHandler()
 seen = simple.VolumetoSurface(volume, Preview=1)
-unseen = servermanager.filters.VolumetoSurface(Input=volume, Preview=1)  # no source of the pipeline
+unseen = servermanager.filters.VolumetoSurface(Input=volume, Preview=1)
 used = {}
 
 def attend(proxy):
@@ -119,8 +119,8 @@ print("Used:", [used[proxy] for proxy in (seen, unseen)])
 class Hand(x_input.Input):
     """Quicker than a user."""
 
-    def press(self, place, times=1):
-        self._xtst.XTestFakeMotionEvent(self._display, -1, *place, ctypes.c_ulong(0))
+    def press(self, position, times=1):
+        self._xtst.XTestFakeMotionEvent(self._display, -1, *position, ctypes.c_ulong(0))
         for down in (1, 0) * times:
             self._x11.XSync(self._display, 0)
             time.sleep(0.03)
@@ -129,10 +129,10 @@ class Hand(x_input.Input):
 
 
 def abort_button(pixels):
-    """Its red cross, lit up, at the window's lower edge."""
+    """Return the position of the enabled red cross at the lower edge of the window, or None."""
     red, green, blue = window.colours(pixels, numpy.s_[-40:])
-    place = window.middle_of((red > 150) & (green < 60) & (blue < 60), 20)
-    return place and (place[0], place[1] + pixels.shape[0] - 40)
+    position = window.middle_of((red > 150) & (green < 60) & (blue < 60), 20)
+    return position and (position[0], position[1] + pixels.shape[0] - 40)
 
 
 @unittest.skipUnless(x_input.Input.is_there(), "libXtst was not found")
@@ -143,7 +143,7 @@ class AbortWindowTest(window.WindowTestCase):
         cls.hold = testing.output_path("hold")
         testing.load_plugin()
         surface = testing.fetch(simple.VolumetoSurface(simple.Wavelet(WholeExtent=EXTENT)))
-        # Stop reason, points, triangles and bad edges without a stop on the way.
+        # Stop reason, points, triangles and bad edges without a stop.
         cls.whole = (testing.field(surface, "StopReason"), surface.GetNumberOfPoints(),
                      surface.GetNumberOfPolys(), 0)
 
@@ -151,30 +151,30 @@ class AbortWindowTest(window.WindowTestCase):
         return self.session.screenshot(testing.output_path(f"abort-{name}.png"))
 
     def wait_for(self, find, name):
-        """The place that `find` finds in the window."""
+        """Wait for a position that `find` finds in the window, and return it."""
         end = time.monotonic() + gui.PATIENCE
-        while not (place := find(self.picture(name))):
+        while not (position := find(self.picture(name))):
             if time.monotonic() > end:
                 self.fail(f"There is no {find.__name__}; see abort-{name}.png")
             time.sleep(0.1)
-        return place
+        return position
 
     def line_with(self, start):
-        """What the window says after that, to the end of the line: from now on, or lately."""
+        """Wait for the next line with that start, and return its rest."""
         end = time.monotonic() + gui.PATIENCE
-        while not (found := re.search(f"{start}(.*)\n", self.said)):
+        while not (found := re.search(f"{start}(.*)\n", self.printed)):
             if time.monotonic() > end:
-                self.fail(f"The window did not say {start!r}, but:\n{self.said}")
-            self.said += self.session.wait_for("\n", 1)
-        self.said = self.said[found.end():]
+                self.fail(f"The window did not print {start!r}, but:\n{self.printed}")
+            self.printed += self.session.wait_for("\n", 1)
+        self.printed = self.printed[found.end():]
         return found[1]
 
-    def facts(self, start):
+    def values(self, start):
         return ast.literal_eval(self.line_with(start))
 
     @contextlib.contextmanager
     def run_held(self):
-        """The next run stays where its iterations begin till the context is left."""
+        """Hold the next run at its first iteration until the context ends."""
         with open(self.hold, "w", encoding="utf-8"):
             pass
         try:
@@ -183,9 +183,9 @@ class AbortWindowTest(window.WindowTestCase):
             os.remove(self.hold)
 
     def make_filter(self):
-        """By the quick launch, for which no place need be known. Returns where Apply is."""
-        self.said = ""
-        self.session.start(TELL_OF_RUNS.replace("HOLD", repr(self.hold)))
+        """Make a filter by the quick launch, which needs no position. Return the position of Apply."""
+        self.printed = ""
+        self.session.start(REPORT_RUNS.replace("HOLD", repr(self.hold)))
         self.line_with("Window is ready")
         self.hand = Hand(self.session.display)
         self.hand.move(700, 500)
@@ -201,56 +201,56 @@ class AbortWindowTest(window.WindowTestCase):
         self.session.wait_for_rest(least=2)
         return self.wait_for(window.apply_button, "made")
 
-    def test_stops_a_run_and_shows_the_surface_as_it_is(self):
+    def test_stop_shows_current_surface(self):
         apply = self.make_filter()
         with self.run_held():
             self.hand.press(apply)
             self.line_with("Iterations have begun")
             self.hand.press(self.wait_for(abort_button, "during"))
-            self.line_with("It is asked to stop")
-        reason, points, _, bad_edges = self.facts("Run ended: ")
+            self.line_with("Stop is requested")
+        reason, points, _, bad_edges = self.values("Run ended: ")
         self.assertEqual((reason, bad_edges), ("cancelled", 0))
         self.assertTrue(100 < points < self.whole[1])
-        self.assertEqual(self.facts("View: "), (2, points))
-        self.assertIsNone(abort_button(self.picture("after")), "grey again")
+        self.assertEqual(self.values("View: "), (2, points))
+        self.assertIsNone(abort_button(self.picture("after")), "disabled again")
         self.session.wait_for_rest()
         with self.run_held():
             self.hand.press(self.wait_for(window.apply_button, "after"))
             self.line_with("Iterations have begun")
             self.hand.key("Control_L", "q")
-            self.line_with("It is asked to stop")
+            self.line_with("Stop is requested")
         self.assertTrue(self.session.has_quit(), "The window closes after the run")
 
-    def test_nothing_else_gets_through(self):
+    def test_other_input_is_rejected(self):
         x, y = self.make_filter()
         before = self.picture("before")
         with self.run_held():
             self.hand.press((x, y))
             self.line_with("Iterations have begun")
             # Apply, Reset, Delete and Help; File.
-            for place in [(x + 82 * n, y) for n in range(4)] + [(20, 8)]:
-                self.hand.press(place)
-            place = self.wait_for(abort_button, "others")
-            self.hand.press((place[0] + 60, place[1]))
+            for position in [(x + 82 * n, y) for n in range(4)] + [(20, 8)]:
+                self.hand.press(position)
+            position = self.wait_for(abort_button, "others")
+            self.hand.press((position[0] + 60, position[1]))
             self.hand.press((x, y), times=2)
             self.hand.key("Control_L", "o")
-            time.sleep(1)  # Nothing tells of presses that have no effect.
-            self.said += self.session.wait_for("\n", 0.1)
-            self.assertNotIn("Run ended", self.said, "all this was during the run")
+            time.sleep(1)  # presses without an effect are not reported
+            self.printed += self.session.wait_for("\n", 0.1)
+            self.assertNotIn("Run ended", self.printed, "all this was during the run")
             edge = numpy.s_[-20:, :250]
             self.assertTrue((self.picture("message")[edge] != before[edge]).any(),
                             "the status bar says that a filter is running")
-        self.assertEqual(self.facts("Run ended: "), self.whole)
-        self.assertEqual(self.facts("View: "), (2, self.whole[1]))
+        self.assertEqual(self.values("Run ended: "), self.whole)
+        self.assertEqual(self.values("View: "), (2, self.whole[1]))
         self.session.wait_for_rest()
         pixels = self.picture("untouched")
         self.assertIsNone(window.apply_button(pixels), "nothing is to be applied")
         for part in (numpy.s_[:20, :400], numpy.s_[25:50, 10:100]):  # menus; first icons
             self.assertTrue((pixels[part] == before[part]).all(), "neither menu nor dialog")
 
-    def test_the_window_takes_little_of_the_time(self):
-        self.said = ""
+    def test_overhead_of_progress(self):
+        self.printed = ""
         self.session.start(MEASURE)
         # The first runs prepare the window and the filter.
-        seen, unseen = (sum(times[1:]) for times in self.facts("Used: "))
+        seen, unseen = (sum(times[1:]) for times in self.values("Used: "))
         self.assertLess(seen, 1.3 * unseen)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""An error leaves nothing old behind, in no view: good runs before and after each kind of error."""
+"""After an error no view shows old data: good runs before and after each kind of error."""
 
 import numpy
 from paraview import simple
@@ -21,7 +21,7 @@ OF_SURFACE = {"IsoValue": (-5.0, 1000.0, float("inf"), float("nan")), "CoarsestL
               "Recovery": (-1, 3), "Metric": (2,), "KeepComponents": (9,),
               "MaximumNumberOfIterations": (0,), "SnapshotInterval": (-1,), "TimeLimit": (-1.0,)}
 FILTERS = {"ImagePyramid": OF_PYRAMID, "DeformableSurface": OF_SURFACE,
-           # Its other properties are those of the other two.
+           # Other properties as above.
            "VolumetoSurface": {**OF_PYRAMID, "IsoValue": (-5.0, 1000.0)}}
 
 
@@ -40,7 +40,7 @@ def huge(inside):
     return numpy.where(inside > 99, 3e38, inside)
 
 
-# Files that a good one may be changed to, and the filters that can do nothing with them.
+# Invalid files, and the filters for which they are invalid.
 BAD_FILES = {
     "no-arrays": (no_arrays, FILTERS),
     "empty": (lambda: testing.make_image(numpy.zeros((0, 0, 0), numpy.float32)), FILTERS),
@@ -56,7 +56,7 @@ BAD_FILES = {
 
 
 def bad_second_inputs():
-    """What port 1 may be given, with the value of Initialization that asks for it."""
+    """Return invalid inputs of port 1, with the value of Initialization that uses it."""
     middle = [(SIZE - 1) / 2] * 3
     return {
         "open": (3, simple.Plane(Origin=(5, 5, 11), Point1=(18, 5, 11), Point2=(5, 18, 11))),
@@ -79,7 +79,7 @@ class ErrorsInViewTest(testing.PluginTestCase):
         self.view = views.new_view("RenderView")
 
     def show(self, kind, path=None):
-        """A filter of a reader of a file, shown in the view."""
+        """Show a filter with a reader in the view."""
         reader = simple.XMLImageDataReader(FileName=path or self.good_file)
         reader.UpdatePipeline()
         self.filter = getattr(simple, kind)(reader)
@@ -89,7 +89,7 @@ class ErrorsInViewTest(testing.PluginTestCase):
         return self.filter
 
     def set_number(self, name, value):
-        """Not as Python's properties do, which refuse a wrong choice."""
+        """Set a property without the check of Python's properties."""
         self.filter.SMProxy.GetProperty(name).SetElement(0, value)
         self.filter.SMProxy.UpdateVTKObjects()
 
@@ -97,15 +97,15 @@ class ErrorsInViewTest(testing.PluginTestCase):
         pixels = views.picture_of(self.view, f"errors-{name}.png")
         return pixels if views.drawn(pixels) else None
 
-    def check_run(self, is_good, wanted=None, first=False):
-        """What the view, the client and the object itself have after a run."""
+    def check_run(self, is_good, expected=None, first=False):
+        """Check the view, the client and the object after a run."""
         with testing.CapturedMessages() as messages:
             self.filter.UpdatePipeline()
             if first:
                 simple.ResetCamera(self.view)
             pixels = self.rendered("good" if is_good else "bad")
         self.assertEqual("ERROR" in messages.text, not is_good, messages.text)
-        self.assertNotIn("vtkInformation", messages.text, "VTK's own report of the failure")
+        self.assertNotIn("vtkInformation", messages.text, "VTK's own error message")
         for port in range(self.filter.GetNumberOfOutputPorts()):
             # Snapshots are off.
             has_data = is_good and port < 3
@@ -116,19 +116,19 @@ class ErrorsInViewTest(testing.PluginTestCase):
         self.assertEqual(self.display.GetRepresentedDataInformation().GetNumberOfPoints() > 0,
                          is_good)
         self.assertEqual(pixels is not None, is_good)
-        if wanted is not None:
-            numpy.testing.assert_array_equal(pixels, wanted)
+        if expected is not None:
+            numpy.testing.assert_array_equal(pixels, expected)
         return pixels
 
     def size_of(self, port):
-        """What the client believes without fetching anything."""
+        """Return the size in the data information of the client."""
         information = self.filter.GetDataInformation(port)
         return information.GetNumberOfPoints() + information.GetNumberOfRows()
 
-    def test_good_bad_good(self):
+    def test_invalid_properties(self):
         for kind, numbers in FILTERS.items():
             self.show(kind)
-            wanted = self.check_run(True, first=True)
+            expected = self.check_run(True, first=True)
             for name, values in numbers.items():
                 good = self.filter.SMProxy.GetProperty(name).GetElement(0)
                 for value in values:
@@ -136,22 +136,22 @@ class ErrorsInViewTest(testing.PluginTestCase):
                         self.set_number(name, value)
                         self.check_run(False)
                         self.set_number(name, good)
-                        self.check_run(True, wanted)
+                        self.check_run(True, expected)
             simple.Delete(self.filter)
 
-    def test_array_that_is_not_there(self):
-        # For the surfaces, one that is there is chosen.
+    def test_missing_array(self):
+        # The surface filters then choose an existing array.
         self.show("ImagePyramid")
-        wanted = self.check_run(True, first=True)
+        expected = self.check_run(True, first=True)
         self.filter.Voxels = ["POINTS", "absent"]
         self.check_run(False)
         self.filter.Voxels = ["POINTS", "density"]
-        self.check_run(True, wanted)
+        self.check_run(True, expected)
 
     def test_second_inputs(self):
         for kind in ("DeformableSurface", "VolumetoSurface"):
             self.show(kind)
-            wanted = self.check_run(True, first=True)
+            expected = self.check_run(True, first=True)
             for name, (initialization, source) in bad_second_inputs().items():
                 with self.subTest(filter=kind, name=name):
                     self.filter.InitialSurface = source
@@ -159,25 +159,25 @@ class ErrorsInViewTest(testing.PluginTestCase):
                     self.check_run(False)
                     self.filter.InitialSurface = None
                     self.set_number("Initialization", 0)
-                    self.check_run(True, wanted)
+                    self.check_run(True, expected)
             simple.Delete(self.filter)
 
     def change_file(self, path):
-        """What File > Change File does: another reader takes the place of the one before."""
+        """Replace the reader, as File > Change File does."""
         reader = self.filter.Input
         simple.ReplaceReaderFileName(reader, [path], "FileName")
         self.filter.Input.UpdatePipeline()
 
-    def test_change_of_the_file(self):
+    def test_change_of_file(self):
         for name, (image, kinds) in BAD_FILES.items():
             bad_file = testing.write_volume(f"volume-{name}.vti", image())
             for kind in kinds:
                 with self.subTest(file=name, filter=kind):
                     self.show(kind)
-                    wanted = self.check_run(True, first=True)
+                    expected = self.check_run(True, first=True)
                     self.change_file(bad_file)
                     self.check_run(False)
                     self.change_file(self.good_file)
-                    self.check_run(True, wanted)
+                    self.check_run(True, expected)
                     self.assertEqual(list(self.filter.Voxels), ["POINTS", "density"])
                     simple.Delete(self.filter)

@@ -36,7 +36,7 @@ class ExportTest(testing.PluginTestCase):
         os.mkdir(self.folder)
 
     def export(self, name, source, port=0):
-        """{name: triangles} of the files that it makes."""
+        """Return {name: triangles} of the files."""
         writer = servermanager.writers.ExportSurfaces(
             Input=servermanager.OutputPort(source, port), FileName=os.path.join(self.folder, name))
         writer.UpdatePipeline()
@@ -47,7 +47,7 @@ class ExportTest(testing.PluginTestCase):
         image = label_maps.add_names(label_maps.image(), **names)
         return simple.LabelstoSurfaces(testing.produce(image), FinestLevel=1)
 
-    def test_interfaces_for_meshers_of_solids(self):
+    def test_interfaces_for_tetrahedral_meshers(self):
         source = self.labels()
         interfaces = testing.fetch(source, 1)
         for suffix in ("msh", "smesh"):
@@ -67,16 +67,16 @@ class ExportTest(testing.PluginTestCase):
     def test_a_file_for_each_label(self):
         source = self.labels()
         blocks = testing.fetch(source)
-        wanted = {f"organs-{name.replace(' ', '_')}": blocks.GetBlock(i).GetNumberOfPolys()
-                  for i, name in enumerate(label_maps.NAMES.values())}
+        expected = {f"organs-{name.replace(' ', '_')}": blocks.GetBlock(i).GetNumberOfPolys()
+                    for i, name in enumerate(label_maps.NAMES.values())}
         for suffix in READERS:
             with self.subTest(suffix=suffix):
                 self.setUp()
                 self.assertEqual(self.export("organs" + suffix, source),
-                                 {name + suffix: count for name, count in wanted.items()})
+                                 {name + suffix: count for name, count in expected.items()})
 
     def test_a_component_has_its_cavities(self):
-        """A file is a solid: of a hollow ball, one in its cavity, and one beside, three of them."""
+        """A hollow ball, a ball in its cavity and a ball elsewhere are three files."""
         z, y, x = numpy.mgrid[0:32, 0:32, 0:32]
         far = numpy.sqrt((x - 12.0)**2 + (y - 15.0)**2 + (z - 15.0)**2)
         beside = numpy.sqrt((x - 27.0)**2 + (y - 15.0)**2 + (z - 15.0)**2)
@@ -91,16 +91,16 @@ class ExportTest(testing.PluginTestCase):
                            for name in ("ComponentVolume", "ComponentOwner"))
         self.assertLess(volumes.GetValue(1), 0)
         self.assertEqual([owners.GetValue(i) for i in range(4)], [0, 0, 2, 3])
-        wanted = {"w-component-0.stl": found.count(0) + found.count(1),
-                  "w-component-2.stl": found.count(2), "w-component-3.stl": found.count(3)}
-        self.assertEqual(self.export("w.stl", source), wanted)
-        # Half of it, too.
+        expected = {"w-component-0.stl": found.count(0) + found.count(1),
+                    "w-component-2.stl": found.count(2), "w-component-3.stl": found.count(3)}
+        self.assertEqual(self.export("w.stl", source), expected)
+        # Half of the surface, too.
         self.setUp()
         clip = simple.Clip(source, ClipType="Plane", Scalars=["POINTS", ""])
         clip.ClipType.Origin, clip.ClipType.Normal = (12, 15, 15), (0, 0, 1)
-        self.assertEqual(list(self.export("w.stl", clip)), list(wanted))
+        self.assertEqual(list(self.export("w.stl", clip)), list(expected))
 
-    def test_what_clip_and_threshold_leave(self):
+    def test_outputs_of_clip_and_threshold(self):
         source = self.labels()
         clip = simple.Clip(source, ClipType="Plane", Scalars=["POINTS", ""])
         clip.ClipType.Origin, clip.ClipType.Normal = (14, 16, 16), (1, 0, 0)
@@ -117,12 +117,12 @@ class ExportTest(testing.PluginTestCase):
         self.assertEqual(self.export("one.ply", threshold), {"one.ply": count})
         self.assertGreater(count, 0)
 
-    def test_nothing_is_an_error(self):
+    def test_empty_surface_is_an_error(self):
         threshold = simple.Threshold(self.labels(), Scalars=["POINTS", "Residual"],
                                      LowerThreshold=1e9, UpperThreshold=2e9)
         with testing.CapturedMessages() as messages:
             self.assertEqual(self.export("w.stl", threshold), {})
-        self.assertIn("w.stl: not written, as there are no triangles in it", messages.text)
+        self.assertIn("w.stl: not written, because there are no triangles", messages.text)
 
     def test_one_surface_is_one_file(self):
         source = simple.VolumetoSurface(simple.Wavelet(), IsoValue=150.0)

@@ -15,13 +15,13 @@ CENTRE = numpy.full(3, (SIZE - 1) / 2)
 
 
 def ball_values():
-    """values[z, y, x]: bright in a ball about the middle, over about two voxels dark around it."""
+    """Return values[z, y, x]: a bright ball at the centre with a blurred boundary."""
     inside = numpy.clip(0.5 + 0.5 * (RADIUS - testing.distances(SIZE)), 0, 1)
     return (DARK + (BRIGHT - DARK) * inside).astype(numpy.float32)
 
 
 def ball_of_cells():
-    """The same ball in cells, whose centres are where the points are."""
+    """Return the same ball as cell data, with cell centres at the positions of the points."""
     image = testing.make_image(numpy.zeros((SIZE + 1,) * 3, numpy.float32), origin=(-0.5,) * 3)
     points = testing.make_image(ball_values(), name="density")
     image.GetPointData().Initialize()
@@ -33,7 +33,7 @@ class ImagePyramidTest(testing.PluginTestCase):
     def test_levels_and_factor(self):
         source = simple.Wavelet()
         source.UpdatePipeline()
-        # 21 voxels, floor(21 / sqrt 3) = 12, and the next level would have 6, under the 10 allowed.
+        # 21 voxels, floor(21 / sqrt 3) = 12; the next level would have 6, fewer than 10.
         for properties, factor, sizes in (({}, 3**0.5, [21, 12]), (
                 {"NumberOfLevels": 4, "ReductionFactor": 1.5}, 1.5, [21, 14, 9, 6])):
             pyramid = testing.fetch(simple.ImagePyramid(Input=source, **properties))
@@ -57,7 +57,7 @@ class SurfaceTest(testing.PluginTestCase):
         distance = numpy.linalg.norm(points(surface) - CENTRE, axis=1)
         self.assertLess(numpy.abs(distance - RADIUS).max(), tolerance)
 
-    def test_iso_value_is_preset_and_apply_is_enough(self):
+    def test_default_iso_value(self):
         filter_ = simple.VolumetoSurface(self.ball)
         self.assertGreater(filter_.IsoValue, DARK + 30)
         self.assertLess(filter_.IsoValue, BRIGHT - 30)
@@ -65,8 +65,8 @@ class SurfaceTest(testing.PluginTestCase):
         self.assertNotAlmostEqual(filter_.IsoValue, (low + high) / 2, places=3)
         self.check_ball(testing.fetch(filter_))
 
-    def test_a_range_of_values(self):
-        """Of a ball within a ball the outer one's layer; none is wanted by default."""
+    def test_upper_value(self):
+        """A ball within a ball: with the upper value only the outer layer. Default: unused."""
         inner = numpy.clip(0.5 + 0.5 * (5 - testing.distances(SIZE)), 0, 1)
         values = (ball_values() + 400 * inner).astype(numpy.float32)
         filter_ = simple.VolumetoSurface(testing.produce(testing.make_image(values)))
@@ -101,8 +101,8 @@ class SurfaceTest(testing.PluginTestCase):
                              simple.CreateView("XYChartView"))
         self.assertIn("Vertices", curves.SeriesVisibility)
 
-    def test_abort_and_the_next_apply(self):
-        """By the button of newer ParaViews."""
+    def test_abort_and_next_apply(self):
+        """By the button of newer versions of ParaView."""
         filter_ = simple.VolumetoSurface(self.ball)
         algorithm = filter_.GetClientSideObject()
         executions = []
@@ -111,14 +111,14 @@ class SurfaceTest(testing.PluginTestCase):
         surface = testing.fetch(filter_)
         self.assertEqual(testing.field(surface, "StopReason"), "cancelled")
         self.assertGreater(surface.GetNumberOfPolys(), 0)
-        # A sweep of five iterations reports once at least.
+        # A sweep of five iterations reports at least once.
         self.assertTrue(0 < testing.fetch(filter_, HISTORY).GetNumberOfRows() <= 50)
-        # ParaView keeps it, also for the filters after it, and does not start again by itself.
+        # ParaView keeps the output, also for downstream filters, and does not restart the filter.
         self.assertEqual(testing.fetch(simple.Elevation(filter_)).GetNumberOfPoints(),
                          surface.GetNumberOfPoints())
         self.assertEqual(len(executions), 1)
         algorithm.RemoveObserver(tag)
-        # Nobody takes the request back; any change and Apply will do.
+        # A change and Apply restart the filter.
         filter_.Friction = 2.9
         self.check_ball(testing.fetch(filter_))
         self.assertEqual(len(executions), 2)
@@ -129,19 +129,19 @@ class SurfaceTest(testing.PluginTestCase):
             self.ball, IsoValue=120.0, InitialSurface=sphere, Initialization="Input Surface")))
 
     def test_attracting_points(self):
-        place = CENTRE + (RADIUS + 3.0, 0.0, 0.0)
-        known = simple.PointSource(Center=place, NumberOfPoints=1, Radius=0.0)
+        position = CENTRE + (RADIUS + 3.0, 0.0, 0.0)
+        known = simple.PointSource(Center=position, NumberOfPoints=1, Radius=0.0)
         for weight, passed in ((1.0, True), (0.0, False)):
             surface = testing.fetch(simple.DeformableSurface(
                 self.ball, IsoValue=120.0, AttractingPoints=known, PointAttractionWeight=weight))
-            self.assertEqual(surface.GetBounds()[1] > place[0], passed)
+            self.assertEqual(surface.GetBounds()[1] > position[0], passed)
 
     def test_edge_map(self):
         distance = testing.distances(SIZE)
         image = testing.make_image((RADIUS - distance).astype(numpy.float32))
         testing.add_array(image, numpy.exp(-(distance - 9.0)**2).astype(numpy.float32), "edges")
         source = testing.produce(image)
-        # Alone, the value would lead the surface over the edges to the radius 5.
+        # Without edges the surface moves to the radius 5.
         for weight, radius in ((0.0, 5.0), (2.0, 9.0)):
             filter_ = simple.DeformableSurface(source, IsoValue=RADIUS - 5.0,
                                                EdgeAttractionWeight=weight)

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""ParaView's real window on a screen of its own (Xvfb): events are played, then a picture is taken.
+"""ParaView's window on a separate screen (Xvfb): play events, then take a picture.
 
-The events are those that ParaView's own test recorder writes (Tools > Record Test): an object's path
-in the tree of widgets, a command and its arguments.
+Events are those of ParaView's test recorder (Tools > Record Test): the path of an object in the tree of
+widgets, a command and its arguments.
 """
 
 import os
@@ -31,7 +31,7 @@ def event(path, command, arguments=""):
 
 
 def check(path, property_, value):
-    """Fails the session unless the widget's Qt property has that value."""
+    """Return the event that fails unless the Qt property of the widget has this value."""
     return f"<pqcheck object={quoteattr(path)} property={quoteattr(property_)} " \
            f"arguments={quoteattr(value)}/>"
 
@@ -41,12 +41,12 @@ def pause(milliseconds):
 
 
 def start_screen(xvfb, size, options=()):
-    """Start an X server. Returns its process and its name for DISPLAY."""
+    """Start an X server. Return its process and the value of DISPLAY."""
     read_end, write_end = os.pipe()
     server = subprocess.Popen(
         [xvfb, "-displayfd", str(write_end), "-screen", "0", f"{size[0]}x{size[1]}x24", *options,
          "-nolisten", "tcp",
-         # Without a client for a moment, it would be busy with itself when the next one comes.
+         # A server that resets after its last client refuses the next one during that time.
          "-noreset"],
         pass_fds=[write_end], stderr=subprocess.DEVNULL, stdin=subprocess.DEVNULL,
         preexec_fn=end_with_parent)
@@ -61,17 +61,17 @@ def start_screen(xvfb, size, options=()):
 
 
 CODES = 12  # macros of the menu
-SCRIPTS = 500  # that a window plays at most
-PATIENCE = 900  # seconds: a machine may be busy with other things
+SCRIPTS = 500  # maximum number of scripts per window
+PATIENCE = 900  # seconds, for a busy machine
 
 
 class Session:
-    """Starts Xvfb and paraview; `play` returns when all events have been played or one failed.
+    """Starts Xvfb and paraview. play() returns when all events have been played or one has failed.
 
-    One window plays scripts after each other, and leaves nothing of one for the next: starting it
-    takes long. It waits at the end of each till there is another one.
+    Starting a window takes long, so one window plays scripts one after the other, and resets its state
+    between them. At the end of a script it waits for the next one.
 
-    plain: for pictures; a window for each script, whose toolbars have no macros: no add_code().
+    plain: for pictures; a window for each script, without macros in the toolbars and add_code().
     """
 
     def __init__(self, paraview, plugin, xvfb, size=(1400, 1000), plain=False):
@@ -79,7 +79,7 @@ class Session:
         self._plugin = plugin
         self._folder = tempfile.TemporaryDirectory(prefix="volumic-window-")
         self._server, display = start_screen(xvfb, size, ("-fbdir", self._folder.name))
-        # A home of its own: neither the user's settings nor a first start's dialogs play a part.
+        # A separate home, without settings of the user.
         self._environment = dict(os.environ, DISPLAY=display, QT_QPA_PLATFORM="xcb",
                                  HOME=self._folder.name, XDG_RUNTIME_DIR=self._folder.name,
                                  LIBGL_ALWAYS_SOFTWARE="1", PYTHONUNBUFFERED="1",
@@ -98,7 +98,7 @@ class Session:
                         f"import in_the_window\nin_the_window.{call}\n")
 
     def _write(self, name, text):
-        """A file in the folder, which is there as a whole or not at all."""
+        """Write a file in the folder atomically, and return its path."""
         path = os.path.join(self._folder.name, name)
         os.makedirs(os.path.dirname(path), exist_ok=True)
         with open(path + ".part", "w", encoding="utf-8") as file:
@@ -107,7 +107,7 @@ class Session:
         return path
 
     def add_code(self, code):
-        """Python code for the window. Returns the event that runs it there, till forget_codes()."""
+        """Return the event that runs Python code in the window, until forget_codes()."""
         name = f"code{self._codes.index(code) if code in self._codes else len(self._codes)}"
         if code not in self._codes:
             self._codes.append(code)
@@ -123,14 +123,14 @@ class Session:
 
     @property
     def display(self):
-        """Name of the screen, as other programs of X want it."""
+        """Value of DISPLAY for other programs."""
         return self._environment["DISPLAY"]
 
     def play(self, events, timeout=PATIENCE, python="", live=False):
-        """Play the events in the window as it is after a start. Returns whether all succeeded.
+        """Play the events in a window in its initial state. Return whether all succeeded.
 
-        python: code that runs first; what it prints is in `output`.
-        live: in a window of its own, which takes real mouse and keys afterwards.
+        python: code that runs first; `output` has its printed lines.
+        live: in a separate window, which accepts real mouse and keys afterwards.
         """
         live = live or self._plain
         if live or self._is_spent:
@@ -150,20 +150,19 @@ class Session:
             self._environment["VOLUMIC_SCRIPT"] = str(self._script)
             self._start(*scripts)
         self._script = following
-        # It says no more than the last when an event failed.
-        self.output = self._listen((b"Success = " if live else b"All is played.",
+        # The second text is the last output if an event failed.
+        self.output = self._listen((b"Success = " if live else b"All events are played.",
                                     b"critical: In event"), timeout)
-        # What is said between two scripts is of none.
+        # Ignore output between two scripts.
         self.output = self.output.rpartition(f"/{script}\n")[2] or self.output
-        succeeded = ("Success =  true" if live else "All is played.") in self.output
-        # After a failure it plays no more, and a box with messages stays open.
+        succeeded = ("Success =  true" if live else "All events are played.") in self.output
+        # After a failure the window plays no more events, and a box with messages stays open.
         self._is_spent = live or not succeeded or any(
             word in self.output for word in ("ERR|", "WARN|", "critical:", "warning:"))
         return succeeded
 
     def start(self, python):
-        """Start a window that plays no events, for real mouse and keys. The code runs in it; the caller
-        waits for what it prints."""
+        """Start a window that plays no events, for real mouse and keys, and run the code in it."""
         self.close_window()
         self._write("started", python)
         self._start("--script=" + self._write("start.py", f"import sys\nsys.path.insert(0, {HERE!r})\n"
@@ -177,23 +176,23 @@ class Session:
             stderr=subprocess.STDOUT, preexec_fn=end_with_parent)
 
     def wait_for(self, text, timeout=PATIENCE):
-        """After the events: wait till the window has printed the text; all it has said since."""
+        """After the events: wait until the window prints the text. Return its output since then."""
         return self._listen((text.encode(),), timeout)
 
     def _listen(self, ends, timeout):
         deadline = time.monotonic() + timeout
-        said = b""
-        while not any(end in said for end in ends) and time.monotonic() < deadline:
+        printed = b""
+        while not any(end in printed for end in ends) and time.monotonic() < deadline:
             ready, _, _ = select.select([self._window.stdout], [], [], 0.5)
             if ready:
                 piece = os.read(self._window.stdout.fileno(), 65536)
                 if not piece:
                     break
-                said += piece
-        return said.decode(errors="replace")
+                printed += piece
+        return printed.decode(errors="replace")
 
     def pixels(self):
-        """Of the window, without the empty rest of the screen."""
+        """Return the pixels of the window, without the empty part of the screen."""
         with open(os.path.join(self._folder.name, "Xvfb_screen0"), "rb") as file:
             data = file.read()
         # The format of xwd: a header of big-endian words, a colour map, rows of 4 bytes a pixel.
@@ -209,9 +208,8 @@ class Session:
         return pixels
 
     def wait_for_rest(self, before=None, least=1, timeout=PATIENCE):
-        """Till nothing of the window has changed for a while, some seconds at least, as a window
-        that is busy does not change either; if there is a picture of it from before, till it has
-        become another one, too."""
+        """Wait until the window does not change for a while, at least `least` seconds. With a picture
+        from before, wait until the window differs from it, too."""
         begin = time.monotonic()
         end = begin + timeout
         last, since = before, None if before is not None else time.monotonic()
@@ -219,13 +217,13 @@ class Session:
             now = self.pixels()
             if last is None or now.shape != last.shape or (now != last).any():
                 last, since = now, time.monotonic()
-            # A cursor blinks every half second.
+            # A text cursor blinks every half second.
             elif since and time.monotonic() - since > 0.4 and time.monotonic() - begin > least:
                 return
             time.sleep(0.05)
 
     def screenshot(self, path):
-        """Write the window as PNG; return its pixels."""
+        """Write the window as PNG. Return its pixels."""
         pixels = self.pixels()
         image = vtkImageData()
         image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
@@ -239,7 +237,7 @@ class Session:
         return pixels
 
     def has_quit(self):
-        """Wait for the end of the window. Returns whether it ended without an error."""
+        """Wait for the end of the window. Return whether it ended without an error."""
         self.wait_for("\0")  # to the end of its output
         return self._window.wait(PATIENCE) == 0
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the filters of the plugin take and what they don't, in scripts of pvbatch and pvpython:
-sources that were never updated, types that are no image, components, NaN."""
+"""Valid and invalid inputs of the filters, in scripts of pvbatch and pvpython: sources that were never
+updated, types that are not images, components, NaN."""
 
 import numpy
 from paraview import simple
@@ -17,7 +17,7 @@ SURFACES = FILTERS[1:]
 
 
 def ball(low=20.0, high=220.0):
-    """values[z, y, x]: bright in a ball about the middle."""
+    """Return values[z, y, x]: a bright ball at the centre."""
     inside = numpy.clip(0.5 + 0.5 * (RADIUS - testing.distances(SIZE)), 0, 1)
     return (low + (high - low) * inside).astype(numpy.float32)
 
@@ -34,7 +34,7 @@ def image(**arrays):
 
 
 def coloured():
-    """Three components: the ball is in the second one."""
+    """Return an image with three components; the ball is in the second one."""
     values = ball()
     data = image(colour=numpy.stack([values * 0 + 7, values, values * 0 - 9], axis=-1))
     array = data.GetPointData().GetArray("colour")
@@ -44,7 +44,7 @@ def coloured():
 
 
 def is_offered(name, source):
-    """Whether the menu's entry is enabled for the source."""
+    """Return whether the entry of the menu is enabled for the source."""
     filter_ = getattr(simple, name)(source)
     try:
         return bool(filter_.SMProxy.GetProperty("Input").IsInDomains())
@@ -60,19 +60,19 @@ class InputsTest(testing.PluginTestCase):
             low, high = surface.GetBounds()[2 * axis:2 * axis + 2]
             self.assertAlmostEqual(high - low, 2 * RADIUS, delta=1.5)
 
-    def test_source_that_was_never_updated(self):
-        wanted = None
+    def test_source_without_update(self):
+        expected = None
         for name in SURFACES:
             for source in (simple.Wavelet(), simple.ImagePyramid(simple.Wavelet())):
                 with self.subTest(filter=name, source=source.GetXMLName()):
                     filter_ = getattr(simple, name)(source)
-                    wanted = wanted or filter_.IsoValue
-                    self.assertEqual(filter_.IsoValue, wanted)
+                    expected = expected or filter_.IsoValue
+                    self.assertEqual(filter_.IsoValue, expected)
                     self.assertEqual(list(filter_.Voxels), ["POINTS", "RTData"])
                     self.assertGreater(testing.fetch(filter_).GetNumberOfPoints(), 500)
-        self.assertTrue(100.0 < wanted < 200.0, wanted)
+        self.assertTrue(100.0 < expected < 200.0, expected)
 
-    def test_iso_value_follows_until_it_is_given(self):
+    def test_preset_of_iso_value(self):
         first = testing.produce(image(density=ball()))
         second = testing.produce(image(other=ball(1000, 2000), density=ball(0, 10)))
         for name in SURFACES:
@@ -91,7 +91,7 @@ class InputsTest(testing.PluginTestCase):
                 filter_.Input = first
                 self.assertEqual(filter_.IsoValue, 5.0)
 
-    def test_what_is_offered(self):
+    def test_accepted_inputs(self):
         volume = image(density=ball())
         nested, partitions = vtkMultiBlockDataSet(), vtkPartitionedDataSet()
         nested.SetBlock(0, volume)
@@ -101,13 +101,13 @@ class InputsTest(testing.PluginTestCase):
         rectilinear = vtkRectilinearGrid()
         rectilinear.SetDimensions(4, 4, 4)
         for name in FILTERS:
-            for data, wanted in ((volume, True), (nested, True), (partitions, True),
-                                 (collection, True), (image(), False), (coloured(), True),
-                                 (rectilinear, False)):
+            for data, expected in ((volume, True), (nested, True), (partitions, True),
+                                   (collection, True), (image(), False), (coloured(), True),
+                                   (rectilinear, False)):
                 with self.subTest(filter=name, data=data.GetClassName()):
-                    self.assertEqual(is_offered(name, testing.produce(data)), wanted)
+                    self.assertEqual(is_offered(name, testing.produce(data)), expected)
 
-    def test_refined_grids_are_refused_by_one_message(self):
+    def test_refined_grids_are_one_error(self):
         refined = simple.AMRGaussianPulseSource()
         refined.UpdatePipeline()
         self.assertIn("AMR", refined.GetDataInformation().GetCompositeDataClassName())
@@ -135,7 +135,7 @@ class InputsTest(testing.PluginTestCase):
                 self.assertEqual(filter_.IsoValue, of_green.IsoValue)
                 self.assertNotEqual(filter_.IsoValue, magnitude)
                 self.check_ball(filter_)
-                # What the slider of the panel spans.
+                # The range of the slider in the panel.
                 domain = filter_.SMProxy.GetProperty("IsoValue").GetDomain("range")
                 self.assertEqual((domain.GetMinimum(0), domain.GetMaximum(0)), (20.0, 220.0))
                 filter_.SelectedComponent = "Magnitude"
@@ -161,4 +161,4 @@ class InputsTest(testing.PluginTestCase):
                 filter_.NaNIsBackground = 0
                 with testing.CapturedMessages() as messages:
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
-                self.assertIn("Turn NaN Is Background on", messages.text)
+                self.assertIn("Switch NaN Is Background on", messages.text)

@@ -14,7 +14,7 @@ COLORS = {3: (0.8, 0.2, 0.2), 7: (0.2, 0.8, 0.2), 12: (0.2, 0.2, 0.8)}
 
 
 def values(kind=numpy.int16, balls=None):
-    """labels[z, y, x]"""
+    """Return labels[z, y, x]."""
     z, y, x = numpy.mgrid[0:SIZE, 0:SIZE, 0:SIZE]
     labels = numpy.zeros((SIZE,) * 3, kind)
     for label, ((i, j, k), radius) in (balls or BALLS).items():
@@ -27,7 +27,7 @@ def image(kind=numpy.int16, balls=None, **geometry):
 
 
 def cells():
-    """The same in cells, whose centres are where the points are."""
+    """Return the same as cell data, with cell centres at the positions of the points."""
     data = testing.make_image(numpy.zeros((SIZE + 1,) * 3, numpy.uint8), origin=(-0.5,) * 3)
     data.GetPointData().Initialize()
     data.GetCellData().AddArray(image().GetPointData().GetArray("labels"))
@@ -35,7 +35,7 @@ def cells():
 
 
 def add_names(data, names=None, colors=None):
-    """Field data with names and colours, as `volumic --write-volume` leaves them."""
+    """Add field data with names and colours, as `volumic --write-volume` does."""
     names, colors = names or NAMES, colors or COLORS
     arrays = (vtkIntArray(), "LabelValues"), (vtkStringArray(), "LabelNames"), \
         (vtkDoubleArray(), "LabelColors")

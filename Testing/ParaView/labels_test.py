@@ -15,13 +15,13 @@ from label_maps import BALLS, COLORS, NAMES
 
 
 def labels_of(surface):
-    """Those of the triangles."""
+    """Return the labels of the triangles."""
     return set(vtk_to_numpy(surface.GetCellData().GetArray("Label")).tolist())
 
 
 class LabelsTestCase(testing.PluginTestCase):
     def blocks(self, filter_):
-        """{name: surface}, without a message on the way."""
+        """Return {name: surface}; no message is expected."""
         with testing.CapturedMessages() as messages:
             output = testing.fetch(filter_)
         self.assertEqual(messages.text, "")
@@ -44,7 +44,7 @@ class LabelsTestCase(testing.PluginTestCase):
 
 
 class LabelsTest(LabelsTestCase):
-    def test_chosen_labels(self):
+    def test_selected_labels(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), Labels=[12, 3])
         self.assertEqual(list(self.blocks(filter_)), ["Label 3", "Label 12"])
         filter_.Labels = [7]
@@ -75,8 +75,8 @@ class LabelsTest(LabelsTestCase):
         filter_.LabelNames = []
         self.assertEqual(list(self.blocks(filter_)), list(NAMES.values()))
 
-    def test_what_is_offered(self):
-        """By the menu; and that the only image of a composite dataset serves."""
+    def test_accepted_inputs(self):
+        """In the menu; a composite dataset with one image is accepted."""
         bare = label_maps.image()
         bare.GetPointData().Initialize()
         vectors = label_maps.image()
@@ -87,19 +87,19 @@ class LabelsTest(LabelsTestCase):
         array.SetNumberOfTuples(label_maps.SIZE**3)
         nested = vtkMultiBlockDataSet()
         nested.SetBlock(1, label_maps.image())
-        for data, wanted in ((label_maps.image(), True), (label_maps.cells(), True),
-                             (nested, True), (bare, False), (vectors, False)):
+        for data, expected in ((label_maps.image(), True), (label_maps.cells(), True),
+                               (nested, True), (bare, False), (vectors, False)):
             with self.subTest(data=data.GetClassName()), testing.CapturedMessages():
                 filter_ = simple.LabelstoSurfaces(testing.produce(data))
                 offered = filter_.SMProxy.GetProperty("Input").IsInDomains()
-                self.assertEqual(bool(offered), wanted)
+                self.assertEqual(bool(offered), expected)
         filter_ = simple.LabelstoSurfaces(testing.produce(nested), Labels=[7])
         self.check_ball(self.blocks(filter_)["Label 7"], 7)
 
-    def test_stopped_and_run_again(self):
+    def test_stop_and_restart(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()))
         algorithm = filter_.GetClientSideObject()
-        # As the cross beside the progress bar does.
+        # As by the cross beside the progress bar.
         tag = algorithm.AddObserver("ProgressEvent", lambda caller, _: caller.SetAbortExecute(1))
         stopped = testing.levels(testing.fetch(filter_))
         reasons = [testing.field(surface, "StopReason") for surface in stopped]
@@ -112,9 +112,9 @@ class LabelsTest(LabelsTestCase):
 
 class LabelErrorsTest(LabelsTestCase):
     def check_error(self, filter_, *words):
-        output, said = self.check_one_error(filter_)
+        output, printed = self.check_one_error(filter_)
         for word in words:
-            self.assertIn(word, said)
+            self.assertIn(word, printed)
         self.assertEqual(output.GetNumberOfBlocks(), 0)
 
     def test_interfaces(self):
@@ -132,7 +132,7 @@ class LabelErrorsTest(LabelsTestCase):
             numpy.testing.assert_allclose(testing.points(block),
                                           testing.points(interfaces)[numbers], atol=1e-6)
             self.assertEqual(block.GetNumberOfPolys(), (sides == label).any(1).sum())
-        # ParaView's filters offer what users need.
+        # Arrays that ParaView's filters offer.
         threshold = simple.Threshold(filter_)
         arrays = threshold.SMProxy.GetProperty("SelectInputScalars").FindDomain(
             "vtkSMArrayListDomain")
@@ -142,15 +142,15 @@ class LabelErrorsTest(LabelsTestCase):
         else:
             self.assertEqual(list(threshold.Scalars), ["CELLS", "Label"])
         self.assertEqual(offered, ["Label"])
-        # One surface alone: the mesh is that of all labels, and what is not chosen is outside.
+        # One label: the mesh is that of all labels, and labels not selected are outside.
         filter_.Labels = [7]
         one = self.blocks(filter_)["Label 7"]
         numpy.testing.assert_array_equal(testing.points(one), testing.points(blocks["Label 7"]))
         sides = vtk_to_numpy(testing.fetch(filter_, 1).GetCellData().GetArray("BoundaryLabels"))
         self.assertEqual({tuple(sorted(pair)) for pair in sides.tolist()}, {(0, 0), (0, 7)})
 
-    def test_a_state_of_an_earlier_version(self):
-        """It has properties that are gone, and some that have no effect."""
+    def test_state_of_earlier_version(self):
+        """It has removed properties, and properties without effect."""
         reader = simple.XMLImageDataReader(FileName=testing.write_volume(
             "labels-earlier.vti", label_maps.image()))
         simple.LabelstoSurfaces(reader, registrationName="Earlier", FinestLevel=1)
@@ -159,16 +159,16 @@ class LabelErrorsTest(LabelsTestCase):
         with open(path, encoding="utf-8") as file:
             state = file.read()
         here = state.index('<Property name="SharedInterfaces"')
-        gone = "".join(f"""<Property name="{name}" id="1.{name}" number_of_elements="1">
+        removed = "".join(f"""<Property name="{name}" id="1.{name}" number_of_elements="1">
             <Element index="0" value="1"/></Property>""" for name in ("Gap", "ThinParts", "GoOn"))
         with open(path, "w", encoding="utf-8") as file:
-            file.write(state[:here] + gone + state[here:])
+            file.write(state[:here] + removed + state[here:])
         self.tearDown()
         simple.LoadState(path)
         filter_ = simple.FindSource("Earlier")
         self.assertEqual((len(self.blocks(filter_)), filter_.FinestLevel), (3, 1))
 
-    def test_good_bad_good(self):
+    def test_error_between_good_runs(self):
         filter_ = simple.LabelstoSurfaces(testing.produce(label_maps.image()), FinestLevel=1)
         self.assertEqual(len(self.blocks(filter_)), 3)
         for name, bad, good, words in (

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the surfaces of labels look in views: colours of labels, that follow the data."""
+"""Surfaces of labels in views: colours that follow the data."""
 
 import numpy
 from paraview import simple
@@ -15,7 +15,7 @@ OTHER_COLORS = {3: (0.9, 0.8, 0.1), 7: (0.8, 0.1, 0.9), 12: (0.1, 0.9, 0.9)}
 
 
 def hues(pixels):
-    """Which of red, green, blue are drawn, alone: the colours of the three labels."""
+    """Return which of the colours of the three labels (red, green, blue) are visible."""
     bright = pixels.astype(int)
     found = set()
     for name, channel in (("red", 0), ("green", 1), ("blue", 2)):
@@ -26,7 +26,7 @@ def hues(pixels):
 
 
 def legend(display):
-    """{value: (text, colour)} of the colour map in use."""
+    """Return {value: (text, colour)} of the current colour map."""
     colors = display.LookupTable
     texts, shown = list(colors.Annotations), list(colors.IndexedColors)
     return {int(texts[2 * i]): (texts[2 * i + 1], tuple(shown[3 * i:3 * i + 3]))
@@ -53,14 +53,14 @@ class LabelsViewTest(testing.PluginTestCase):
             self.assertEqual(name, names[label])
             numpy.testing.assert_allclose(color, colors[label], atol=1e-6)
 
-    def check_same(self, pixels, wanted):
-        """But for what the depth of the view does to a pixel here and there."""
-        difference = numpy.abs(pixels.astype(int) - wanted).max(axis=2)
+    def check_same(self, pixels, expected):
+        """Compare pictures, except for a few pixels that depend on the depth of the view."""
+        difference = numpy.abs(pixels.astype(int) - expected).max(axis=2)
         self.assertLess(int((difference > 16).sum()), 20)
 
     def test_all_blocks_have_their_colors(self):
         self.show()
-        # In the very first picture.
+        # In the first picture.
         self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
         self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
         self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
@@ -69,7 +69,7 @@ class LabelsViewTest(testing.PluginTestCase):
     def legend_is_shown(self):
         return self.display.IsScalarBarVisible(self.view)
 
-    def test_legend_of_a_few(self):
+    def test_legend_of_few_labels(self):
         """Up to twelve labels, at each Apply."""
         labels = list(range(1, 14))
         voxels = numpy.repeat(numpy.arange(14, dtype=numpy.int16), 4)[:, None, None]
@@ -102,12 +102,12 @@ class LabelsViewTest(testing.PluginTestCase):
         self.picture("to-be-edited")
         self.display.LookupTable.IndexedColors = [0.1, 0.1, 1.0, *COLORS[7]]
         self.assertEqual(hues(self.picture("edited")), {"green", "blue"})
-        # What comes anew gets its colour, too.
+        # New labels get their colours, too.
         self.filter.Labels = [3, 7, 12]
         self.picture("edited-more")
         self.check_legend([3, 7, 12], colors={**COLORS, 3: (0.1, 0.1, 1.0)})
 
-    def test_error_first_and_then_a_good_run(self):
+    def test_good_run_after_error(self):
         source = testing.produce(label_maps.add_names(label_maps.image()))
         with testing.CapturedMessages() as messages:
             self.show(source, Smoothing=-1.0)
@@ -126,7 +126,7 @@ class LabelsViewTest(testing.PluginTestCase):
         self.check_same(self.picture("good-again"), good)
 
     def clip(self, surfaces):
-        """The display of a clip that cuts off the spleen."""
+        """Return the display of a clip that removes the spleen."""
         clip = simple.Clip(surfaces)
         clip.ClipType.Normal = [0.0, 0.0, 1.0]
         clip.ClipType.Origin = [16.0, 16.0, 12.0]
@@ -134,8 +134,8 @@ class LabelsViewTest(testing.PluginTestCase):
         simple.Hide(surfaces, self.view)
         return display
 
-    def test_what_is_made_of_the_surfaces(self):
-        """Has the names and colours of its own label map."""
+    def test_downstream_filters(self):
+        """They have the names and colours of their own label map."""
         self.show()
         self.picture("to-be-clipped")
         clipped = self.clip(self.filter)
@@ -162,7 +162,7 @@ class LabelsViewTest(testing.PluginTestCase):
         elsewhere = simple.Show(others.Input, views.new_view("RenderView"))
         simple.ColorBy(elsewhere, ("CELLS", "Label"))
         self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, elsewhere)
-        # Label 3 of both can't have one name.
+        # Label 3 has different names in the two maps.
         both = simple.Show(simple.GroupDatasets(Input=[self.filter, second]), self.view)
         simple.ColorBy(both, ("CELLS", "Label"))
         self.assertEqual(legend(both), {})

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Labels to Surfaces in ParaView's window: the table of labels, Apply, errors, another input; File >
-Save Data, a scene with names; and File > Open by the readers of Volumic."""
+"""Labels to Surfaces in ParaView's window: table of labels, Apply, errors, another input; File > Save Data
+with a scene; File > Open with the readers of Volumic."""
 
 import os
 import re
@@ -26,19 +26,19 @@ ADVANCED = ("FinestLevel", "BoxFaces", "VoxelTolerance", "BackgroundLabel", "Max
             "ScratchDirectory")
 CHECKED, UNCHECKED = 2, 0
 
-TELL = """
+PRINT_RESULT = """
 from paraview import servermanager, simple
 filter_ = simple.FindSource("LabelstoSurfaces1")
 filter_.UpdatePipeline()
 blocks = servermanager.Fetch(filter_)
 legend = simple.GetRepresentation(filter_, simple.GetActiveView()).LookupTable.Annotations
 # ParaView 6.1's Fetch puts "Block 0_" before the names.
-print("Told:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).split("_")[-1]
+print("Result:", list(filter_.Labels), [blocks.GetMetaData(b).Get(blocks.NAME()).split("_")[-1]
                                       for b in range(blocks.GetNumberOfBlocks())],
       list(legend)[1::2])
 """
 
-TELL_MAPS = """
+PRINT_MAPS = """
 from paraview import simple
 view = simple.GetActiveView()
 for (name, _), source in sorted(simple.GetSources().items()):
@@ -59,7 +59,7 @@ ENTRY = f"{gui.WINDOW}/menubar/menu_File"
 
 
 def note(text):
-    """Fails the session unless this is below the table."""
+    """Return the event that fails unless this text is below the table."""
     return gui.check(f"{TABLE}/Note", "text", text)
 
 
@@ -80,7 +80,7 @@ def search(text):
 
 
 def set_box(row, state):
-    """Of a row of the table, as it is sorted."""
+    """Return the events that set the box of a row of the sorted table."""
     return gui.event(f"{TABLE}/Labels", "setCheckState", f"{row}.0,{state}") + "\n" + \
         gui.pause(300)
 
@@ -93,7 +93,7 @@ class LabelsWindowTest(window.WindowTestCase):
             "labels-window.vti", label_maps.add_names(label_maps.image()))
 
     def blocks_of(self, state):
-        """{block: name} of the filter in a saved state."""
+        """Return the property Labels and the names of the blocks of the filter in a saved state."""
         filter_ = window.open_state(state, "LabelstoSurfaces1")
         return list(filter_.Labels), testing.names(testing.fetch(filter_))
 
@@ -105,7 +105,7 @@ class LabelsWindowTest(window.WindowTestCase):
             *[window.shown(name, False) for name in ADVANCED], window.as_wide_as_the_panel(),
             SHOW_ADVANCED, gui.pause(300),
             *[window.shown(name, True) for name in BASIC + ADVANCED],
-            # Without a tolerance they have no effect.
+            # No effect without a tolerance.
             *[gui.check(f"{PROPERTIES}/{name}", "enabled", "false")
               for name in ("MaximumEdgeLength", "Gradation")],
             window.shown("MinimumComponentVolume", False),
@@ -114,13 +114,13 @@ class LabelsWindowTest(window.WindowTestCase):
             APPLY, gui.pause(300), *save], "labels-applied")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
         self.assertEqual(window.proxies_of(path).count("VolumicLabelsRepresentation"), 1)
-        # All three in their colours.
+        # All three labels in their colours.
         bright = pixels[200:, 400:].astype(int)
         for channel in range(3):
             others = numpy.delete(bright, channel, axis=2).max(axis=2)
             self.assertGreater(int((bright[..., channel] > 2 * others + 20).sum()), 300)
 
-    def test_choice(self):
+    def test_selection(self):
         chosen, save_chosen = self.saved_state("labels-chosen.pvsm")
         found, save_found = self.saved_state("labels-found.pvsm")
         all_, save_all = self.saved_state("labels-all.pvsm")
@@ -135,30 +135,30 @@ class LabelsWindowTest(window.WindowTestCase):
             note("<b>Note:</b> At least one label must be checked."),
             search("SP"), press("All"), note("2 of 4 labels"), search(""), press("All"),
             note("3 of 4 labels"), APPLY, *save_all, SHOW_ADVANCED,
-            # Another background; 5 is none of the labels.
+            # Another background; 5 is not in the map.
             gui.event(background, "set_string", "7"), gui.pause(300), note("3 of 4 labels"),
             gui.event(background, "set_string", "5"), gui.pause(300), note("4 of 4 labels"),
             gui.event(background, "set_string", "3"), gui.pause(300), set_box(0, UNCHECKED),
             note("2 of 4 labels"), APPLY], "labels-chosen")
         self.assertEqual(self.blocks_of(chosen), ([7, 12], [NAMES[7], NAMES[12]]))
         self.assertEqual(self.blocks_of(found), ([7], [NAMES[7]]))
-        # All again is the default.
+        # All labels are the default.
         self.assertEqual(self.blocks_of(all_), ([], list(NAMES.values())))
 
     def test_maps_of_two_datasets(self):
-        """What is made of surfaces has the names and the legend of these."""
+        """Downstream filters have the names and the legend of their surfaces."""
         others = testing.write_volume("labels-two.vti", label_maps.add_names(
             label_maps.image(), {3: "pelvis", 7: "femur", 12: "sacrum"}))
         voxels = numpy.repeat(numpy.arange(14, dtype=numpy.int16), 4)[:, None, None]
         many = testing.write_volume("labels-14.vti", testing.make_image(
             numpy.broadcast_to(voxels, (56, 12, 12)).copy(), name="labels"))
         state, save = self.saved_state("labels-two.pvsm")
-        told = self.session.add_code(TELL_MAPS)
+        print_event = self.session.add_code(PRINT_MAPS)
         self.play([
             *opened(self.path), FILTER, APPLY, CLIPPED,
             gui.check(COLORED_BY, "currentText", "Label"), *opened(others), FILTER, APPLY, CLIPPED,
-            gui.pause(300), told, *opened(many), FILTER, APPLY, CLIPPED, gui.pause(300),
-            self.session.add_code(DELETE), told, *save, gui.pause(300)], "labels-two-maps")
+            gui.pause(300), print_event, *opened(many), FILTER, APPLY, CLIPPED, gui.pause(300),
+            self.session.add_code(DELETE), print_event, *save, gui.pause(300)], "labels-two-maps")
         first, second = list(NAMES.values()), ["pelvis", "femur", "sacrum"]
         third = [f"Label {label}" for label in (1, 2, 3)]
         self.assertEqual(re.findall("Shown: (.*)", self.session.output), [
@@ -175,7 +175,7 @@ class LabelsWindowTest(window.WindowTestCase):
         undo = edit("actionEditUndo")
         self.play(opened(self.path) + [
             FILTER, APPLY, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500),
-            # The window's editor of colour maps makes a step of its own of what follows the data.
+            # The colour map, which follows the data, is a separate step.
             note("2 of 4 labels"), undo, undo, gui.pause(500), note("3 of 4 labels"),
             *save, gui.pause(500)], "labels-undone")
         self.assertEqual(self.blocks_of(path), ([], list(NAMES.values())))
@@ -187,20 +187,20 @@ class LabelsWindowTest(window.WindowTestCase):
             numpy.random.default_rng(1).random((12, 12, 12)), name="labels"))
         changed = self.changes_of_file("LabelstoSurfaces1", {
             "others": others, "no_map": no_map, "back": self.path})
-        told = self.session.add_code(TELL)
+        print_event = self.session.add_code(PRINT_RESULT)
         # Errors open a box, so not self.play().
         succeeded = self.session.play(opened(self.path) + [
-            FILTER, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500), told,
-            # Of the labels chosen, 12 is not there: an error, and a row to uncheck.
-            *changed["others"], rows(4), note("2 of 4 labels"), told,
-            set_box(2, UNCHECKED), note("1 of 4 labels"), APPLY, gui.pause(500), told,
-            *changed["no_map"], window.shown("Labels/Note", True), told,
-            *changed["back"], rows(4), note("1 of 4 labels"), told,
-            press("All"), APPLY, gui.pause(500), told, gui.pause(500)])
+            FILTER, gui.pause(500), set_box(2, UNCHECKED), APPLY, gui.pause(500), print_event,
+            # The selected label 12 is missing: an error, and a row to uncheck.
+            *changed["others"], rows(4), note("2 of 4 labels"), print_event,
+            set_box(2, UNCHECKED), note("1 of 4 labels"), APPLY, gui.pause(500), print_event,
+            *changed["no_map"], window.shown("Labels/Note", True), print_event,
+            *changed["back"], rows(4), note("1 of 4 labels"), print_event,
+            press("All"), APPLY, gui.pause(500), print_event, gui.pause(500)])
         self.session.screenshot(testing.output_path("labels-changed.png"))
         self.assertTrue(succeeded, self.session.output)
-        runs = re.findall(r"Told: (\[.*\]) (\[.*\]) (\[.*\])", self.session.output)
-        # The legend of an error is that of the run before.
+        runs = re.findall(r"Result: (\[.*\]) (\[.*\]) (\[.*\])", self.session.output)
+        # After an error the legend is that of the previous run.
         self.assertEqual([run[:2] for run in runs], [
             ("[3, 12]", "['liver', 'spleen']"), ("[3, 12]", "[]"), ("[3]", "['Label 3']"),
             ("[3]", "[]"), ("[3]", "['liver']"), ("[]", "['liver', 'left kidney', 'spleen']")])
@@ -225,17 +225,17 @@ class SaveDataWindowTest(window.WindowTestCase):
             self.assertIn(name.encode(), scene)
 
 
-TELL_THE_READER = """
+PRINT_READER = """
 from paraview import simple
 reader = simple.GetActiveSource()
 print("Reader:", reader.GetXMLName(), reader.GetDataInformation().GetExtent())
 """
-# ParaView asks which of the readers for the file it is to take.
+# ParaView's dialog to select one of several readers.
 DIALOG = f"{gui.WINDOW}/pqSelectReaderDialog"
 
 
 def choose_reader(row):
-    """In the order of the labels Volumic's is behind ParaView's own, of DICOM two."""
+    """Return the events that choose a reader. Volumic's is after one of ParaView, for DICOM after two."""
     return [gui.event(f"{DIALOG}/listWidget", "mousePress", f"1,1,0,20,9,/{row}:0"),
             gui.event(f"{DIALOG}/listWidget", "mouseRelease", f"1,0,0,20,9,/{row}:0"),
             gui.event(f"{DIALOG}/okButton", "activate"), gui.pause(1000)]
@@ -243,17 +243,17 @@ def choose_reader(row):
 
 class VolumeReaderWindowTest(window.WindowTestCase):
     def test_files_of_each_kind(self):
-        told = self.session.add_code(TELL_THE_READER)
+        print_event = self.session.add_code(PRINT_READER)
         self.play([
-            # Values that are no labels, which only Volumic reads.
-            *opened(files.nifti("ramp.nii.gz", files.ramp())), told,
+            # Only Volumic reads this file.
+            *opened(files.nifti("ramp.nii.gz", files.ramp())), print_event,
             filter_of_the_menu("VolumeToSurface"), APPLY,
-            # Segments have their names.
-            *opened(files.segmentation(), choose_reader(1)), told,
+            # Segments have names.
+            *opened(files.segmentation(), choose_reader(1)), print_event,
             filter_of_the_menu("LabelsToSurfaces"),
             gui.check(f"{PROPERTIES}/Labels/Note", "text", "3 of 4 labels"), APPLY,
             # A slice opens its series.
-            *opened(os.path.join(files.dicom(), "003.dcm"), choose_reader(2)), told], "readers")
+            *opened(os.path.join(files.dicom(), "003.dcm"), choose_reader(2)), print_event], "readers")
         size = tuple(bound for n in files.voxels().shape[::-1] for bound in (0, n - 1))
         found = re.findall(r"Reader: (\w+) (.*)", self.session.output)
         self.assertEqual([name for name, _ in found],

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run by mpirun with any number of processes: the first makes what one process makes.
+"""Filters in any number of processes under mpirun: the first process makes the output of one process.
 
-All is compared with what the same filters give a process alone. With PROCESSES_OF_SERVER=n the
-script is a client, and starts a pvserver of so many processes; else it is run by pvbatch.
+With PROCESSES_OF_SERVER=n the script is a client, and starts a pvserver with n processes. Otherwise
+pvbatch runs it.
 """
 
 import faulthandler
@@ -20,8 +20,8 @@ from paraview import simple
 from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-# Not as `testing`: a programmable filter's script runs among the names of this module, and
-# ParaView 5.13 brings those of numpy there before it, `testing` among them.
+# Not imported as `testing`: in ParaView 5.13 the script of a programmable filter imports the names of
+# numpy, such as `testing`, into this module.
 import label_maps
 import plugin_testing
 from vtkmodules.vtkImagingCore import vtkRTAnalyticSource
@@ -30,15 +30,15 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 SERVER = int(os.environ.get("PROCESSES_OF_SERVER", "0"))
 EXTENT = [-14, 14] * 3
 ISO_VALUE = 160.0
-SECONDS = 600  # for a test: one that hangs, as processes that wait for each other do, is shown
+SECONDS = 600  # limit of a test, to report deadlocks of processes
 
 
 def connect_to_server():
-    """A pvserver of several processes, which ends when its client does."""
+    """Return a pvserver with several processes, which ends with its client."""
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
         port = probe.getsockname()[1]
-    # Without the variables by which this process itself is one of MPI.
+    # Without the variables of MPI of this process.
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith(("OMPI_", "OPAL_", "ORTE_", "PMIX_"))}
     server = subprocess.Popen(
@@ -46,14 +46,14 @@ def connect_to_server():
          plugin_testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
         env=environment, preexec_fn=plugin_testing.end_with_parent)
-    said = []
+    printed = []
     for line in server.stdout:
-        said.append(line)
+        printed.append(line)
         if "Accepting connection" in line:
             break
     else:
-        raise RuntimeError("pvserver ended: " + "".join(said))
-    # What it says later, such as errors that tests provoke, is for nobody.
+        raise RuntimeError("pvserver ended: " + "".join(printed))
+    # Ignore its later output.
     threading.Thread(target=server.stdout.read, daemon=True).start()
     if not simple.Connect("localhost", port):
         raise RuntimeError("no connection to pvserver")
@@ -106,7 +106,7 @@ class ParallelTest(unittest.TestCase):
         faulthandler.cancel_dump_traceback_later()
 
     def check_surface(self, surface):
-        """That it is the surface of one process, bit by bit."""
+        """Check that the surface is bit-identical to that of one process."""
         numpy.testing.assert_array_equal(numbers(surface.GetPoints().GetData()),
                                          numbers(self.whole.GetPoints().GetData()))
         numpy.testing.assert_array_equal(triangles(surface), triangles(self.whole))
@@ -119,7 +119,7 @@ class ParallelTest(unittest.TestCase):
             self.assertFalse(data.HasArray("vtkGhostType"))
 
     def check_blocks(self, output, names):
-        """That all processes have these blocks: else views and files hang."""
+        """Check that all processes have these blocks. Otherwise views and files hang."""
         with plugin_testing.CapturedMessages() as messages:
             view = simple.CreateView("RenderView")
             simple.Show(output, view)
@@ -138,7 +138,7 @@ class ParallelTest(unittest.TestCase):
         surface = make_surface()
         fetched = plugin_testing.fetch(surface)
         self.check_surface(fetched)
-        # The numbers of the panel.
+        # Values in the panel.
         data = surface.GetDataInformation()
         self.assertEqual(data.GetNumberOfPoints(), self.whole.GetNumberOfPoints())
         for name in ("Area", "EulerCharacteristic"):
@@ -152,7 +152,7 @@ class ParallelTest(unittest.TestCase):
         self.check_surface(plugin_testing.fetch(
             simple.DeformableSurface(pyramid, IsoValue=ISO_VALUE)))
 
-    def test_filters_behind_it(self):
+    def test_downstream_filters(self):
         cleaned = plugin_testing.fetch(simple.Clean(make_surface()))
         self.assertEqual(cleaned.GetNumberOfPoints(), self.whole.GetNumberOfPoints())
         self.assertEqual(cleaned.GetNumberOfCells(), self.whole.GetNumberOfCells())
@@ -202,7 +202,7 @@ class ParallelTest(unittest.TestCase):
         if self.count == 1:
             self.assertEqual(messages.text, "")
         elif not SERVER:
-            self.assertIn("Save it as .pvti", messages.text)
+            self.assertIn("Save the distributed image as .pvti", messages.text)
         if self.count > 1:
             self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
         path = plugin_testing.output_path("image.pvti")
@@ -212,7 +212,7 @@ class ParallelTest(unittest.TestCase):
         surface.UpdatePipeline()
         self.assertGreater(surface.GetDataInformation().GetNumberOfCells(), 1000)
 
-    def test_an_error_and_then_a_good_run(self):
+    def test_good_run_after_error(self):
         surface = make_surface()
         surface.SeedRadius = -1.0
         with plugin_testing.CapturedMessages() as messages:

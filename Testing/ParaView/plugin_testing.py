@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the plugin share: loading it, images to filter, and reading what came out."""
+"""Functions of the tests of the plugin: load it, make images, and read outputs."""
 
 import ctypes
 import importlib
@@ -23,18 +23,18 @@ def plugin_path():
 
 
 def program(name):
-    """Path of one of ParaView's programs."""
+    """Return the path of one of ParaView's programs."""
     return os.path.join(os.environ["VOLUMIC_PARAVIEW_BIN"], name)
 
 
 def end_with_parent():
-    """For Popen's preexec_fn: a program that a test starts ends with it, also when ctest kills it."""
+    """For preexec_fn of Popen: let the program end with the test, also if ctest kills the test."""
     PR_SET_PDEATHSIG = 1
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def output_path(name):
-    """Path for a file that a test writes."""
+    """Return the path of a file that a test writes."""
     return os.path.join(os.environ["VOLUMIC_TEST_OUTPUT"], name)
 
 
@@ -43,19 +43,19 @@ def load_plugin(remote=False):
 
 
 def load_package():
-    """The Python package. Once it is imported, Python knows an object of ours by its class."""
+    """Return the Python package. After its import, objects of the plugin have their classes."""
     sys.path.insert(0, os.environ["VOLUMIC_PYTHON"])
     return importlib.import_module("volumic")
 
 
-def distances(size, place=(0.0, 0.0, 0.0)):
-    """From voxels [z, y, x] of a cube to a place, which is relative to its middle."""
-    x, y, z = (numpy.arange(size) - (size - 1) / 2 - c for c in place)
+def distances(size, position=(0.0, 0.0, 0.0)):
+    """Return distances of the voxels [z, y, x] of a cube to a position relative to its centre."""
+    x, y, z = (numpy.arange(size) - (size - 1) / 2 - c for c in position)
     return numpy.sqrt(x[None, None, :]**2 + y[None, :, None]**2 + z[:, None, None]**2)
 
 
 def make_image(values, spacing=(1.0, 1.0, 1.0), origin=(0.0, 0.0, 0.0), start=(0, 0, 0), name="v"):
-    """vtkImageData of values[z, y, x], whose extent begins at `start`."""
+    """Return a vtkImageData of values[z, y, x] whose extent begins at `start`."""
     image = vtkImageData()
     size = values.shape[::-1]
     image.SetExtent(*[bound for s, n in zip(start, size) for bound in (s, s + n - 1)])
@@ -73,7 +73,7 @@ def add_array(image, values, name):
 
 
 def produce(data):
-    """A source of the pipeline whose output is the data object (not over a remote connection)."""
+    """Return a source whose output is the data object (not with a remote server)."""
     source = simple.TrivialProducer(registrationName="data")
     source.GetClientSideObject().SetOutput(data)
     source.UpdatePipeline()
@@ -81,7 +81,7 @@ def produce(data):
 
 
 def write_volume(file_name, image):
-    """Path of a .vti file, in the folder for what tests write."""
+    """Write a .vti file, and return its path."""
     path = output_path(file_name)
     writer = vtkXMLImageDataWriter()
     writer.SetDataModeToBinary()  # see volumic.writing.surfaces
@@ -92,13 +92,13 @@ def write_volume(file_name, image):
 
 
 def fetch(proxy, port=0):
-    """An output of a filter, on the client."""
+    """Return an output of a filter on the client."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
 
 
 def field(surface, name):
-    """The first value of an array of field data."""
+    """Return the first value of an array of field data."""
     return surface.GetFieldData().GetAbstractArray(name).GetValue(0)
 
 
@@ -107,7 +107,7 @@ def points(surface):
 
 
 def stop_after_the_tenth(algorithm):
-    """Report of an iteration. Returns the observer that does so."""
+    """Stop the algorithm at its tenth report of an iteration. Return the observer."""
     reports = []
 
     def progress(*_):
@@ -119,7 +119,7 @@ def stop_after_the_tenth(algorithm):
 
 
 def delete_sources(but=None):
-    """All of the pipeline, the last ones first: what comes last has nothing after it."""
+    """Delete all sources except one, downstream ones first."""
     for source in reversed(list(simple.GetSources().values())):
         if source != but:
             simple.Delete(source)
@@ -135,18 +135,18 @@ def levels(pyramid):
 
 
 def names(blocks):
-    """Of a vtkMultiBlockDataSet that was fetched, to which ParaView 6.1 adds a prefix."""
+    """Return the names of the blocks of a fetched dataset, without the prefix of ParaView 6.1."""
     given = [blocks.GetMetaData(b).Get(blocks.NAME()) for b in range(blocks.GetNumberOfBlocks())]
     return [name.removeprefix("Block 0_") for name in given]
 
 
 def voxels(image, name):
-    """Values of a point array as [z, y, x]."""
+    """Return the values of a point array as [z, y, x]."""
     return vtk_to_numpy(image.GetPointData().GetArray(name)).reshape(image.GetDimensions()[::-1])
 
 
 class CapturedMessages:
-    """With this, VTK's errors and warnings go to `text` and not to the console."""
+    """Context in which errors and warnings of VTK go to `text` instead of the console."""
 
     def __enter__(self):
         self._previous = vtkOutputWindow.GetInstance()
@@ -163,7 +163,7 @@ class CapturedMessages:
 
 
 class PluginTestCase(unittest.TestCase):
-    """With the plugin; what a test has made is gone after it, but for what its class has kept."""
+    """Loads the plugin. Deletes views and sources after each test, except `kept`."""
 
     kept = None
 
@@ -181,7 +181,7 @@ class PluginTestCase(unittest.TestCase):
         delete_sources(but=self.kept)
 
     def check_one_error(self, filter_):
-        """Its output after a run that fails, and what it says."""
+        """Run a filter that fails. Return its output and its messages."""
         with CapturedMessages() as messages:
             output = fetch(filter_)
         self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
@@ -189,10 +189,9 @@ class PluginTestCase(unittest.TestCase):
 
 
 def main(*names):
-    """Run the tests of these modules, by default the script's; the exit code says whether all passed.
-    """
+    """Run the tests of these modules (default: of the script). Exit with 1 if one fails."""
     result = unittest.main(module=None if names else "__main__", argv=["test", *names], exit=False,
                            verbosity=2).result
-    # Success is the script's plain end: with sys.exit(0), mpirun takes pvbatch's end for a crash.
+    # No sys.exit(0) on success: mpirun would report a crash of pvbatch.
     if not result.wasSuccessful() or result.testsRun == 0:
         sys.exit(1)

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Choosing an iso-value by seeing it, in ParaView's window: Preview on and off, with Apply and with
-Auto Apply; and Show Levels."""
+"""Preview and Show Levels in ParaView's window, with Apply and Auto Apply."""
 
 import re
 
@@ -15,9 +14,9 @@ from paraview import simple
 EXTENT = [-60, 60] * 3  # 1.8 million voxels: level 1 is the preview
 FILTER = filter_of_the_menu("VolumeToSurface")
 
-# Runs in the window: makes the volume larger, and tells of each run of the filter what it gave and
-# which levels have iterated for it.
-TELL_THE_RUNS = """
+# Runs in the window: shows a larger volume, and reports the output and the iterated levels of each run of
+# the filter.
+REPORT_RUNS = """
 from paraview import simple
 simple.GetSettingsProxy("GeneralSettings").AutoApply = AUTO_APPLY
 """ + window.WATCH_FILTERS + """
@@ -43,7 +42,7 @@ simple.Show(simple.Wavelet(WholeExtent=EXTENT))
 
 
 def triangles_of(iso_value, extent=None, **properties):
-    """Of a run from the start."""
+    """Return the number of triangles of a new run."""
     testing.load_plugin()
     volume = simple.Wavelet(WholeExtent=extent or EXTENT)
     filter_ = simple.VolumetoSurface(volume, IsoValue=iso_value, **properties)
@@ -52,19 +51,19 @@ def triangles_of(iso_value, extent=None, **properties):
 
 class PreviewWindowTest(window.WindowTestCase):
     def run_(self, number):
-        """An event that waits for the end of so many runs."""
-        return self.until_told("Run:", number)
+        """Return the event that waits for the end of that many runs."""
+        return self.until_printed("Run:", number)
 
     def runs(self, events, picture, auto_apply=0, extent=None):
-        """Level, triangles and levels that iterated of each run, while the events are played."""
+        """Play the events. Return level, triangles and iterated levels of each run."""
         self.play([gui.pause(300), FILTER, gui.pause(300), *events], picture,
-                  python=TELL_THE_RUNS.replace("AUTO_APPLY", str(auto_apply)).replace(
+                  python=REPORT_RUNS.replace("AUTO_APPLY", str(auto_apply)).replace(
                       "EXTENT", str(extent or EXTENT)))
         found = re.findall(r"Run: level (-?\d+) triangles (\d+) iterated (\[.*\])",
                            self.session.output)
         return [(int(level), int(triangles), levels) for level, triangles, levels in found]
 
-    def test_on_and_off(self):
+    def test_preview(self):
         runs = self.runs([
             window.shown("Preview", True), window.shown("TimeLimit", False),
             set_iso_value(140), set_box("Preview", True), APPLY, self.run_(1),
@@ -76,7 +75,8 @@ class PreviewWindowTest(window.WindowTestCase):
         self.assertEqual([run[1] for run in runs],
                          [triangles_of(140.0, Preview=1), triangles_of(150.0, FinestLevel=1),
                           triangles_of(150.0), runs[1][1]])
-        self.assertEqual([run[2] for run in runs][2:], ["[0]", "[]"], "goes on, and shows at once")
+        self.assertEqual([run[2] for run in runs][2:], ["[0]", "[]"],
+                         "resumes, then shows a finished level")
 
     def test_other_components_without_another_run(self):
         extent = [-20, 20] * 3
@@ -100,7 +100,7 @@ class PreviewWindowTest(window.WindowTestCase):
         self.assertEqual(runs[-2][0], 1, self.session.output)
         self.assertEqual(runs[-1], (0, triangles_of(150.0), "[0]"), self.session.output)
 
-    def test_each_level_is_shown_as_soon_as_it_rests(self):
+    def test_show_levels(self):
         runs = self.runs([
             set_iso_value(150), set_box("ShowLevels", True), APPLY, self.run_(2),
             set_iso_value(140), APPLY, self.run_(4)], "preview-levels")
@@ -108,4 +108,4 @@ class PreviewWindowTest(window.WindowTestCase):
         self.assertEqual([run[1] for run in runs],
                          [triangles_of(iso, FinestLevel=level)
                           for iso in (150.0, 140.0) for level in (1, 0)])
-        self.assertEqual(runs[1][2], "[0]", "it goes on")
+        self.assertEqual(runs[1][2], "[0]", "it resumes")

@@ -1,10 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The properties of every proxy of the plugin hold what a new object of the C++ class holds.
-
-Both are written down once by hand, in the plugin's XML and in the class; nothing else holds them
-together.
-"""
+"""The defaults of all properties in the XML of the plugin are those of the C++ classes."""
 
 import glob
 import os
@@ -18,13 +14,12 @@ import plugin_testing as testing
 PLUGIN_SOURCES = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Plugin/*.xml")
 FILTER_GROUPS = ("filters", "internal_filters")
 
-# Properties whose value depends on the data, so that the class has none or another to begin with;
-# as the panel has a number, it must say that this is not used.
+# Properties that are preset from the data, so that the default of the class differs.
 FROM_DATA = {"IsoValue", "UpperValue", "UseUpperValue"}
 
 
 def proxy_elements():
-    """(group, element) of every filter that the plugin's XML describes."""
+    """Yield (group, element) of all filters in the XML of the plugin."""
     for path in glob.glob(PLUGIN_SOURCES):
         for group in ElementTree.parse(path).getroot().iter("ProxyGroup"):
             for element in group:
@@ -33,7 +28,7 @@ def proxy_elements():
 
 
 def properties_of(proxy):
-    """(name, property) of all that the proxy has, inherited ones too."""
+    """Yield (name, property) of a proxy, with inherited ones."""
     iterator = proxy.NewPropertyIterator()
     iterator.Begin()
     while not iterator.IsAtEnd():
@@ -42,7 +37,7 @@ def properties_of(proxy):
 
 
 def values_of(proxy):
-    """(name, property, setter) of those that hold a number."""
+    """Yield (name, property, setter) of properties with a number."""
     for name, property_ in properties_of(proxy):
         command = property_.GetCommand() or ""
         if property_.IsA("vtkSMVectorProperty") and command.startswith("Set") \
@@ -65,21 +60,21 @@ class ProxyDefaultsTest(unittest.TestCase):
         proxy.UpdateVTKObjects()
         return proxy
 
-    def test_values_agree(self):
+    def test_defaults_of_properties(self):
         compared = set()
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
-            # A second object, which the proxy has not touched.
+            # An object without changes by the proxy.
             fresh = proxy.GetClientSideObject().NewInstance()
             for name, held, command in values_of(proxy):
                 if name in FROM_DATA:
                     continue
                 with self.subTest(proxy=element.get("name"), property=name):
                     expected = getattr(fresh, "Get" + command[3:])()
-                    # Not through the Python proxy, which gives an enumeration's text.
+                    # Not by the Python proxy, which returns the text of an enumeration.
                     self.assertEqual(held.GetElement(0), expected)
                     compared.add((element.get("name"), name))
-        # Inherited ones too.
+        # Inherited properties, too.
         for name in ("Friction", "SnapshotInterval", "FinestLevel", "ReductionFactor", "Recovery",
                      "MinimumPartSize", "KeepComponents", "MinimumComponentVolume",
                      "PointAttractionWeight", "EdgeAttractionWeight"):
@@ -91,7 +86,7 @@ class ProxyDefaultsTest(unittest.TestCase):
             proxy = self.new_proxy(group, element.get("name"))
             offered = {property_.GetCommand() for _, property_ in properties_of(proxy)}
             class_ = type(proxy.GetClientSideObject())
-            # Setters of our own classes that have a getter, that is, properties.
+            # Setters with a getter in classes of the plugin.
             for base in class_.__mro__:
                 if not base.__module__.startswith("volumic"):
                     continue
@@ -101,7 +96,7 @@ class ProxyDefaultsTest(unittest.TestCase):
                             self.assertIn(setter, offered)
 
     def test_values_reach_the_object(self):
-        """Client-server wrapping drops a setter that it doesn't understand, without a word."""
+        """Client-server wrapping silently skips unsupported setters."""
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
             for name, held, command in values_of(proxy):
@@ -122,7 +117,7 @@ class ProxyDefaultsTest(unittest.TestCase):
         return value * 0.9 if value else 0.5
 
     def test_panels_are_short(self):
-        """Rows before the gear is pressed, and with it; without what another value brings up."""
+        """Number of rows without and with advanced properties, for default values."""
         rows = {}
         for name in ("VolumeToSurface", "LabelsToSurfaces"):
             shown = [property_.GetPanelVisibility()
@@ -143,7 +138,7 @@ class ProxyDefaultsTest(unittest.TestCase):
             for i in range(hints.GetNumberOfNestedElements()))
 
     def test_tooltips_are_short(self):
-        """At most 30 words; a tooltip is the documentation of a property."""
+        """At most 30 words in the documentation of a property."""
         long = {(element.get("name"), key): words
                 for group, element in self.elements
                 for key, property_ in properties_of(self.new_proxy(group, element.get("name")))
@@ -152,7 +147,7 @@ class ProxyDefaultsTest(unittest.TestCase):
                 if words > 30}
         self.assertEqual(long, {})
 
-    def test_every_choice_of_the_class_is_offered(self):
+    def test_enumerations(self):
         chosen = set()
         for group, element in self.elements:
             proxy = self.new_proxy(group, element.get("name"))
@@ -172,8 +167,8 @@ class ProxyDefaultsTest(unittest.TestCase):
         self.assertEqual(chosen, {"BorderValue", "BoxFaces", "Initialization", "KeepComponents",
                                   "Metric", "Recovery"})
 
-    def test_arrays_are_those_of_the_input_that_is_given(self):
-        """Not those of the active source, which paraview.simple connects first."""
+    def test_arrays_of_given_input(self):
+        """Not of the active source, which paraview.simple connects first."""
         volume = simple.Wavelet()
         active = simple.Elevation(simple.Sphere())
         active.UpdatePipeline()
@@ -193,7 +188,7 @@ class ProxyDefaultsTest(unittest.TestCase):
             self.assertEqual(messages.text, "")
             simple.GetActiveSource().UpdatePipeline()
         self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
-        self.assertIn("all voxels are 3: no value separates", messages.text)
+        self.assertIn("all voxels are 3, so no value separates", messages.text)
         testing.delete_sources()
 
     def test_lists_of_positions_reach_the_object(self):
@@ -211,9 +206,9 @@ class ProxyDefaultsTest(unittest.TestCase):
                         proxy.UpdateVTKObjects()
                         found = []
                         for i in range(getattr(object_, f"GetNumberOf{list_}s")()):
-                            place = [0.0, 0.0, 0.0]
-                            getattr(object_, f"Get{list_}")(i, place)
-                            found += place
+                            position = [0.0, 0.0, 0.0]
+                            getattr(object_, f"Get{list_}")(i, position)
+                            found += position
                         self.assertEqual(found, numbers)
 
     def test_the_scratch_directory_reaches_the_object(self):

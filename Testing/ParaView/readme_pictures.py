@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The documents' pictures of ParaView's window, by playing the README's four steps on a volume.
+"""Make the pictures of ParaView's window in the documents.
 
     VOLUMIC_PLUGIN=.../Volumic.so VOLUMIC_PARAVIEW_BIN=.../bin VOLUMIC_XVFB=/usr/bin/Xvfb \\
       pvpython readme_pictures.py VOLUME ISO_VALUE LABEL_MAP FOLDER [X,Y ...]
 
-VOLUME is a file that ParaView opens, such as the skull.vti that the quickstart leaves, LABEL_MAP
-another, with names, such as Debian's atlas of the brain written anew:
-`volumic /usr/share/mricron/templates/aal.nii.gz --write-volume aal.vti`. X,Y are places of the
-screen where seeds are picked on the volume's middle slice, such as 733,598 645,480 for the skull.
+VOLUME is a file that ParaView opens, such as skull.vti of the quickstart. LABEL_MAP is a label map with
+names, such as Debian's atlas of the brain:
+`volumic /usr/share/mricron/templates/aal.nii.gz --write-volume aal.vti`. X,Y are positions on the screen
+where seeds are picked on the middle slice, such as 733,598 645,480 for the skull.
 """
 
 import os
@@ -29,7 +29,7 @@ MACRO = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)),
 
 
 def on_a_slice(volume, iso_value):
-    """Events up to where seeds are picked: their list is in sight."""
+    """Return the events up to the pick of seeds, with their list visible."""
     representation = f"{gui.WINDOW}/representationToolbar/displayRepresentation/comboBox"
     return opened(volume) + [
         gui.event(representation, "set_string", "Slice"), gui.pause(1500),
@@ -39,10 +39,10 @@ def on_a_slice(volume, iso_value):
                   "250"), gui.pause(500)]
 
 
-def pick(session, places):
+def pick(session, positions):
     hand = x_input.Input(session.display)
-    for place in places:
-        hand.move(*map(int, place.split(",")))
+    for position in positions:
+        hand.move(*map(int, position.split(",")))
         hand.focus()
         hand.key("p")
         time.sleep(1)
@@ -61,9 +61,9 @@ simple.SetActiveSource(surface)
 exec(compile(open({MACRO!r}).read(), "macro", "exec"), {{"__name__": "__main__"}})
 """
     pictures = {
-        # Two: the menu of a volume that has been opened.
+        # Step two: the menu.
         "paraview-menu.png": ("", start + open_menu_of_volumic() + [gui.pause(1500)]),
-        # Four: the surface.
+        # Step four: the surface.
         "paraview-volume-to-surface.png": ("", start + [
             filter_of_the_menu("VolumeToSurface"), set_iso_value(iso_value), APPLY,
             gui.pause(1000), *FROM_THE_FRONT]),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The plugin on both sides of a connection: a pvserver of our own, and this script as its client."""
+"""The plugin in a pvserver, and in this script as its client."""
 
 import socket
 import subprocess
@@ -23,8 +23,8 @@ def free_port():
 
 
 def start_server():
-    """A pvserver that waits for a client, and its port, unless another program was quicker there."""
-    said = []
+    """Start a pvserver that waits for a client. Return it and its port."""
+    printed = []
     for _ in range(20):
         port = free_port()
         server = subprocess.Popen(
@@ -32,11 +32,11 @@ def start_server():
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
             preexec_fn=testing.end_with_parent)
         for line in server.stdout:
-            said.append(line)
+            printed.append(line)
             if "Accepting connection" in line:
                 return server, port
         server.wait()
-    raise RuntimeError("pvserver ended: " + "".join(said))
+    raise RuntimeError("pvserver ended: " + "".join(printed))
 
 
 def outputs_of(filter_):
@@ -69,7 +69,7 @@ def labels_to_surfaces(path):
 class RemoteServerTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        # What the built-in server gives is what the remote one has to give.
+        # Expected outputs, by the built-in server.
         testing.load_plugin()
         cls.local = testing.fetch(wavelet_pyramid())
         filter_ = wavelet_to_surface()
@@ -88,8 +88,8 @@ class RemoteServerTest(unittest.TestCase):
     @classmethod
     def tearDownClass(cls):
         simple.Disconnect()
-        # It ends by itself only once the last Python object of the session is gone. On SIGTERM,
-        # loguru's handler takes memory, and waits for ever where that came within free().
+        # The server ends only after the last Python object of the session. On SIGTERM, the handler of
+        # loguru allocates memory, which may deadlock within free().
         cls.server.kill()
         cls.server.wait()
         cls.server.stdout.close()
@@ -100,7 +100,7 @@ class RemoteServerTest(unittest.TestCase):
         remote = testing.fetch(filter_)
         self.assertEqual(remote.GetNumberOfBlocks(), 3)
         for here, there in zip(testing.levels(self.local), testing.levels(remote)):
-            # ParaView's way to the client renumbers extents from 0, and moves the origin with it.
+            # The transfer to the client moves the extent to 0, and the origin with it.
             self.assertEqual(here.GetDimensions(), there.GetDimensions())
             self.assertEqual(here.GetBounds(), there.GetBounds())
             for name in ("Level", "Unit"):
@@ -114,7 +114,7 @@ class RemoteServerTest(unittest.TestCase):
     def test_same_surface_as_without_a_server(self):
         filter_ = wavelet_to_surface()
         self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")
-        # Preset where the data is.
+        # The server computes the preset.
         self.assertEqual(filter_.IsoValue, self.local_iso_value)
         surface, levels, history, snapshots = outputs_of(filter_)
         here = self.local_outputs
@@ -149,7 +149,7 @@ class RemoteServerTest(unittest.TestCase):
         for here, there in zip(testing.levels(self.local_labels), testing.levels(remote)):
             self.assertGreater(there.GetNumberOfPolys(), 0)
             self.assertEqual(points(there), points(here))
-        # Names and colours come from the server to the client's colour map.
+        # The colour map of the client has the names and colours of the server.
         view = simple.CreateView("RenderView")
         display = simple.Show(filter_, view)
         view.Update()

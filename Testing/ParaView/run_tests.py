@@ -1,11 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Runs the tests of several scripts in one process, as starting ParaView takes long:
+"""Run the tests of several scripts in one process, because starting ParaView takes long:
 
     pvpython run_tests.py [--screen] SCRIPT[.CLASS[.TEST]] ...
 
-Scripts are named without .py. With --screen, they want an X server, and are skipped where there is
-none. What fails is told by its name.
+Scripts are named without .py. With --screen the tests need an X server, and are skipped without one.
 """
 
 import os

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""States that the window has saved, in scripts; volumes that change under a filter; and the macro
+"""States saved by the window in scripts; a change of the file of a filter; and the macro
 Examples/ParaView/compare_levels.py."""
 
 import os
@@ -16,7 +16,7 @@ import gui_session as gui
 import plugin_testing as testing
 import window_testing as window
 
-# What Documentation/paraview.md tells to write below the import.
+# Documentation/paraview.md: the line to add below the import.
 IMPORT = "from paraview.simple import *"
 LOAD = f"LoadPlugin({testing.plugin_path()!r}, ns=globals())"
 REPORT = """
@@ -28,7 +28,7 @@ print("Points:", filter_.GetDataInformation().GetNumberOfPoints(),
 """.replace("GetViewsByKind(\"RenderView\")",
             "next(v for v in GetViews() if v.GetXMLName() == 'RenderView')")
 
-# Runs in the window, whose File > Save State calls get_state() as well.
+# Runs in the window. File > Save State also calls get_state().
 SAVE_FROM_THE_WINDOW = """
 from paraview import simple, smstate
 source = simple.Wavelet(registrationName="Volume")
@@ -43,10 +43,10 @@ with open({path!r}, "w") as file:
 print("Saved with points:", filter_.GetDataInformation().GetNumberOfPoints())
 """
 
-TELL = """
+PRINT_RESULT = """
 from paraview import simple
 filter_ = simple.FindSource("VolumetoSurface1")
-print("Told:", repr(filter_.Voxels[1] or ""), filter_.IsoValue,
+print("Result:", repr(filter_.Voxels[1] or ""), filter_.IsoValue,
       filter_.GetDataInformation().GetNumberOfPoints())
 """
 
@@ -91,8 +91,8 @@ class StatesOfTheWindowTest(window.WindowTestCase):
 
 
 class ChangedFileInTheWindowTest(window.WindowTestCase):
-    def test_good_bad_good(self):
-        """After a file of no use the next one works, its array is chosen, its range is taken."""
+    def test_error_between_good_files(self):
+        """After an invalid file the array and range of the next file are used."""
         no_arrays = blob()
         no_arrays.GetPointData().Initialize()
         files = {"none": testing.write_volume("none.vti", no_arrays),
@@ -101,22 +101,22 @@ class ChangedFileInTheWindowTest(window.WindowTestCase):
                  "renamed": testing.write_volume("renamed.vti", blob(100, 1000, "voxels"))}
         changed = self.changes_of_file("VolumetoSurface1", files)
         reset = [gui.event(f"{window.PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300)]
-        told = self.session.add_code(TELL)
+        print_event = self.session.add_code(PRINT_RESULT)
         voxels = f"{window.PROPERTIES}/SetInputArrayToProcess/ComboBox"
         succeeded = self.session.play(window.opened(files["again"]) + [
-            window.filter_of_the_menu("VolumeToSurface"), window.APPLY, told,
-            *changed["none"], told,
-            *changed["again"], gui.check(voxels, "currentText", "density"), told,
-            *changed["scaled"], *reset, window.APPLY, told,
-            # An array of another name is chosen.
+            window.filter_of_the_menu("VolumeToSurface"), window.APPLY, print_event,
+            *changed["none"], print_event,
+            *changed["again"], gui.check(voxels, "currentText", "density"), print_event,
+            *changed["scaled"], *reset, window.APPLY, print_event,
+            # An array with another name.
             *changed["renamed"], gui.check(voxels, "currentText", "voxels"), *reset,
-            window.APPLY, told, gui.pause(500)])
+            window.APPLY, print_event, gui.pause(500)])
         self.session.screenshot(testing.output_path("changed-file.png"))
         self.assertTrue(succeeded, self.session.output)
         runs = [(name, float(iso), int(points)) for name, iso, points in
-                re.findall(r"Told: '(\w*)' (\S+) (\d+)", self.session.output)]
+                re.findall(r"Result: '(\w*)' (\S+) (\d+)", self.session.output)]
         self.assertEqual([points > 0 for _, _, points in runs], [True, False, True, True, True], runs)
-        # Of the file without arrays ParaView 6.1 keeps the name that was chosen, older ones none.
+        # For the file without arrays ParaView 6.1 keeps the selected name, older versions do not.
         self.assertEqual([name for name, _, points in runs if points > 0],
                          ["density", "density", "density", "voxels"], runs)
         self.assertEqual(runs[2], runs[0])
@@ -148,7 +148,7 @@ class CompareLevelsTest(window.WindowTestCase):
                   python=APPLIED_AND_MACRO.format(path=os.path.abspath(MACRO)))
         self.assertNotIn("Traceback", self.session.output)
         state = window.proxies_of(path)
-        # The two levels, each in a view with its name, beside the view that was there.
+        # A view with the name of each level, in addition to the first view.
         self.assertEqual(state.count("RenderView"), 3)
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
         self.assertEqual(state.count("VolumicLevelsRepresentation"), 2)

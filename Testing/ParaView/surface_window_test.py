@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Image Pyramid and Deformable Surface in ParaView's window, by menu and panel as a user does."""
+"""Image Pyramid and Deformable Surface in ParaView's window, by menu and panel."""
 
 import gui_session as gui
 import plugin_testing as testing
@@ -34,7 +34,7 @@ simple.SetActiveSource(vector)
 
 
 def iso_values():
-    """What the panel says of the first array, and of the magnitude and of Y of the second."""
+    """Return the preset of the first array, and of the magnitude and Y of the second."""
     testing.load_plugin()
     played = {}
     exec(compile(VECTOR, "vector", "exec"), played)
@@ -62,7 +62,7 @@ class PyramidWindowTest(window.WindowTestCase):
             gui.event(levels, "set_string", "3"), APPLY, *save], "pyramid-applied")
         self.assertGreater(pixels.std(), 10, "the window is drawn")
         self.assertIn("ImagePyramid", window.proxies_of(path))
-        # A saved state opens in a script, and gives what the window showed.
+        # The saved state gives the same output in a script.
         pyramid = testing.fetch(window.open_state(path, "ImagePyramid1"))
         self.assertEqual(pyramid.GetNumberOfBlocks(), 3)
         self.assertEqual(pyramid.GetBlock(2).GetDimensions(), (6, 6, 6))
@@ -78,14 +78,14 @@ class SurfaceWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
-            # The button that finds the value again.
+            # The reset button.
             set_iso_value(111), gui.pause(300),
             gui.event(f"{PROPERTIES}/IsoValue/Reset", "activate"), gui.pause(300),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()),
             set_iso_value(150), APPLY, *save], "surface-applied")
         state = window.proxies_of(path)
         self.assertIn("DeformableSurface", state)
-        # The surface has the window for itself: no chart, no levels, no table.
+        # The window shows only the surface: no chart, levels or table.
         self.assertEqual(state.count("VolumicSurfaceRepresentation"), 1)
         for other in ("XYChartView", "VolumicLevelsRepresentation", "SpreadSheetView"):
             self.assertNotIn(other, state)
@@ -106,17 +106,17 @@ class SurfaceWindowTest(window.WindowTestCase):
             gui.check(f"{PROPERTIES}/Initialization/ComboBox", "currentText", "Enclosing Box"),
             window.value_range(*range_of_the_wavelet()),
             gui.check(ISO_VALUE, "text", iso_of_the_wavelet()), APPLY, *save,
-            # Only of use for seeds.
+            # Only for seeds.
             window.shown("SeedRadius", False),
             choose("Initialization", "Seeds"), gui.pause(300),
             window.shown("SeedRadius", True),
-            # Only of use if edges attract.
+            # Only with edge attraction.
             window.shown("EdgeMap", False),
             gui.event(f"{PROPERTIES}/EdgeAttractionWeight/DoubleRangeWidget/DoubleLineEdit",
                       "set_string", "2"), gui.pause(300),
             window.shown("EdgeMap", True),
             gui.check(f"{PROPERTIES}/Recovery/ComboBox", "currentText", "Objects"),
-            # Only of use for components of that volume.
+            # Only for components of that volume.
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True)], "surface-advanced")
@@ -140,7 +140,7 @@ class SurfaceWindowTest(window.WindowTestCase):
                     window.shown("SelectedComponent", True),
                     gui.check(f"{PROPERTIES}/SelectedComponent/ComboBox", "currentText",
                               "Magnitude"),
-                    # The preset follows, as nobody has typed another value.
+                    # The preset follows until the user types a value.
                     gui.check(ISO_VALUE, "text", of_magnitude),
                     choose("SelectedComponent", "Y"), gui.pause(300),
                     gui.check(ISO_VALUE, "text", of_y), APPLY, *save],

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Views that scripts render: a screen for them, and what can be seen on their pictures."""
+"""Views of scripts: a screen, and checks of pictures."""
 
 import os
 import sys
@@ -14,12 +14,11 @@ from vtkmodules.vtkIOImage import vtkPNGReader
 
 
 def open_screen():
-    """For this process; without one, the test is skipped."""
+    """Open a screen for this process. Skip the test without an X server."""
     if not os.environ["VOLUMIC_XVFB"]:
         print("Skipped: Xvfb was not found")
         sys.exit(77)
-    # It ends with this process, and not before: where views are open at the end, newer VTKs still
-    # ask it then, and fail without it.
+    # The server ends with this process: newer versions of VTK use it until the last view is closed.
     _, display = gui.start_screen(os.environ["VOLUMIC_XVFB"], (900, 700))
     os.environ.update(DISPLAY=display, LIBGL_ALWAYS_SOFTWARE="1")
 
@@ -33,7 +32,7 @@ def new_view(kind, size=(500, 400)):
 
 
 def picture_of(view, name):
-    """Pixels [y, x, colour] of a view; the picture goes to VOLUMIC_TEST_OUTPUT, to be looked at."""
+    """Return the pixels [y, x, colour] of a view, and save the picture in VOLUMIC_TEST_OUTPUT."""
     path = testing.output_path(name)
     simple.SaveScreenshot(path, view)
     reader = vtkPNGReader()
@@ -45,5 +44,5 @@ def picture_of(view, name):
 
 
 def drawn(pixels):
-    """How many pixels are not the background, which a corner has."""
+    """Return the number of pixels that differ from the background (a corner)."""
     return int((numpy.abs(pixels.astype(int) - pixels[0, 0]).max(axis=2) > 8).sum())

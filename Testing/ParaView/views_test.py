@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How the outputs look in views: colours, the blocks that are shown."""
+"""Outputs in views: colours and visible blocks."""
 
 import numpy
 from paraview import simple
@@ -17,7 +17,7 @@ def ball(size, radius, centre=0.0):
 
 
 def two_balls():
-    """One of radius 8 and one of radius 4."""
+    """Return balls of radius 8 and 4."""
     return testing.produce(testing.make_image(
         numpy.maximum(ball(48, 8, 10), ball(48, 4, -12)), name="density"))
 
@@ -30,7 +30,7 @@ class ColoursTest(testing.PluginTestCase):
         simple.ResetCamera(self.view)
 
     def coloured_by(self, name, association):
-        """The colour map, as the list in the window sets it up."""
+        """Return the colour map, as the list in the window sets it."""
         numbers = {"POINTS": 0, "CELLS": 1}
         self.display.SetScalarColoring(name, numbers[association])
         self.display.RescaleTransferFunctionToDataRange(False, False)
@@ -61,7 +61,7 @@ class ColoursTest(testing.PluginTestCase):
         self.assertEqual(list(colours.IndexedColors)[-3:], list(colours.NanColor))
         views.picture_of(self.view, "colours-many-components.png")
 
-    def test_colours_of_others_stay_as_they_are(self):
+    def test_shared_colour_maps_do_not_change(self):
         other = simple.Calculator(simple.Wavelet(), ResultArrayName="Component", Function="RTData")
         display = simple.Show(other, self.view)
         display.SetRepresentationType("Surface")
@@ -83,7 +83,7 @@ class BlocksTest(testing.PluginTestCase):
         simple.Render(view)
         self.assertEqual(self.shown(display), ["/Root/*[@label='Level 0']"])
         simple.ResetCamera(view)
-        # As the surface itself looks.
+        # Same picture as of the surface.
         level = views.picture_of(view, "levels-finest.png")
         simple.Hide(simple.OutputPort(filter_, LEVELS), view)
         simple.Show(filter_, view)
@@ -97,13 +97,13 @@ class BlocksTest(testing.PluginTestCase):
         filter_.FinestLevel = 0
         simple.Render(view)
         self.assertEqual(self.shown(display), ["/Root/*[@label='Level 0']"])
-        # What the user chooses stays.
+        # A selection by the user remains.
         display.BlockSelectors = ["/"]
         filter_.FinestLevel = 1
         simple.Render(view)
         self.assertEqual(self.shown(display), ["/"])
 
-    def test_snapshots_show_the_last_and_none_makes_no_noise(self):
+    def test_snapshots(self):
         filter_ = simple.VolumetoSurface(two_balls(), IsoValue=50.0)
         view = views.new_view("RenderView")
         with testing.CapturedMessages() as messages:

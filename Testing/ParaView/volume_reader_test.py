@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The reader Volumic Volume: places, directions and names of labels of files, series, errors."""
+"""The reader Volumic Volume: positions, directions, names of labels, series and errors."""
 
 import gzip
 import importlib
@@ -20,7 +20,7 @@ import medical_files
 import plugin_testing as testing
 
 SPACING, ORIGIN = (0.5, 0.75, 2.0), (10.0, -20.0, 30.0)
-# A quarter of a turn about z.
+# Rotation by 90 degrees about z.
 TURN = numpy.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 SEGMENTS = ("Segment0_ID:=a", "Segment0_Name:=liver", "Segment0_LabelValue:=3",
             "Segment0_Color:=0.8 0.2 0.2", "Segment1_ID:=b", "Segment1_Name:=spleen",
@@ -29,8 +29,8 @@ SEGMENTS = ("Segment0_ID:=a", "Segment0_Name:=liver", "Segment0_LabelValue:=3",
 
 
 def shown_of(message):
-    """What ParaView's box of messages shows of one: of VTK's what comes after the class, if that is in
-    one line; else the first line."""
+    """Return the part of a message that ParaView's box shows: for messages in VTK's form with one line the
+    text after the class, otherwise the first line."""
     of_vtk = re.fullmatch(r"(?:error|warning): In .*, line \d+\n[^:]*: ?(.*)", message.strip(), re.I)
     return of_vtk[1] if of_vtk else message.strip().splitlines()[0]
 
@@ -48,7 +48,7 @@ def voxels():
 
 
 def ramp():
-    """A ball whose values fall from its centre to its surface and beyond."""
+    """Return values that decrease with the distance from the centre."""
     z, y, x = numpy.mgrid[0:20, 0:24, 0:28]
     return (1000 - 90 * numpy.sqrt((x - 14)**2 + (y - 12)**2 + (z - 10)**2)).astype("i2")
 
@@ -73,7 +73,7 @@ def meta():
 
 
 def dicom(name="series"):
-    """The folder, of a file for each slice."""
+    """Write a file for each slice, and return their folder."""
     for number, pixels in enumerate(voxels()):
         path = write(f"{name}/{number:03}.dcm", medical_files.dicom_slice(
             pixels, number, SPACING, ORIGIN, TURN))
@@ -128,7 +128,7 @@ class VolumeReaderTest(testing.PluginTestCase):
         with testing.CapturedMessages() as messages:
             source = simple.VolumicDICOM(FileName=folder)
             source.UpdatePipeline()
-        self.assertIn("2 series, one is needed; choose it as Series: 1: ", messages.text)
+        self.assertIn("2 series; choose one as Series: 1: ", messages.text)
         source.SMProxy.UpdatePropertyInformation()
         series = source.SMProxy.GetProperty("SeriesList")
         listed = [series.GetElement(i) for i in range(series.GetNumberOfElements())]
@@ -154,7 +154,7 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.assertEqual(slices.Resampling, 0)
         self.check(slices)
 
-    def test_a_warning_begins_with_its_sentence_and_comes_once(self):
+    def test_warning_is_shown_once(self):
         with testing.CapturedMessages() as messages:
             source = simple.VolumicVolume(FileNames=[nifti(), nifti("turned.nii")])
             for time in (0, 1, 0):
@@ -163,7 +163,7 @@ class VolumeReaderTest(testing.PluginTestCase):
             f"Its sform, which is used, and its qform differ ({name})"
             for name in ("turned.nii.gz", "turned.nii")])
 
-    def test_the_box_shows_what_is_wrong(self):
+    def test_error_messages(self):
         def library(*_, **_more):
             raise ValueError("the library fails")
         with unittest.mock.patch("volumic.reading.read", library), \
@@ -192,14 +192,14 @@ class VolumeReaderTest(testing.PluginTestCase):
         name = image.GetPointData().GetScalars().GetName()
         numpy.testing.assert_array_equal(testing.voxels(image, name), label_maps.values())
 
-    def test_a_library_that_is_missing(self):
+    def test_missing_library(self):
         with unittest.mock.patch.dict(sys.modules, {"nibabel": None}), \
                 testing.CapturedMessages() as messages:
             simple.VolumicVolume(FileNames=[nifti()]).UpdatePipeline()
         self.assertIn("python3-nibabel", messages.text)
         self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
 
-    def test_damage_is_an_error_that_names_the_file(self):
+    def test_damaged_file(self):
         with open(nifti(), "rb") as file:
             path = write("cut.nii.gz", file.read()[:200])
         with testing.CapturedMessages() as messages:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volume to Surface in ParaView's window: its panel, undo and redo, and stopping it on its way."""
+"""Volume to Surface in ParaView's window: panel, undo and redo, stop and resume."""
 
 import re
 
@@ -23,8 +23,8 @@ ADVANCED = ("ObjectIsBright", "BorderValue", "ShowLevels", "FinestLevel", "Coars
             "EdgeAttractionWeight", "AttractingPositions", "TimeLimit", "NumberOfThreads",
             "ScratchDirectory", "SnapshotInterval")
 
-# Runs in the window: from the first filter that is made, whoever makes it, its first run is
-# stopped where its progress tells WHERE; what each run does is told.
+# Runs in the window: stops the first run of a filter when its progress text contains WHERE, and reports
+# each run.
 STOP_THE_FIRST_RUN = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     runs = []
@@ -48,7 +48,7 @@ def attend(proxy, algorithm):
     algorithm.AddObserver("EndEvent", end)
 """
 
-TELL_THE_PROGRESS = window.WATCH_FILTERS + """
+REPORT_PROGRESS = window.WATCH_FILTERS + """
 def attend(proxy, algorithm):
     def progress(caller, event):
         if ", iteration" in (caller.GetProgressText() or "") and caller.GetProgress() < 1:
@@ -79,7 +79,7 @@ class VolumeWindowTest(window.WindowTestCase):
         path, save = self.saved_state("volume.pvsm")
         edge_length = f"{PROPERTIES}/EdgeLength/DoubleLineEdit0"
         self.play(VOLUME + [
-            # The first of the menu.
+            # The first entry of the menu.
             *window.open_menu_of_volumic(), gui.pause(500),
             gui.event(f"{window.FILTERS}/Volumic", "keyEvent", "6,16777220,0,,0,1"),
             gui.pause(500),
@@ -87,7 +87,7 @@ class VolumeWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC],
             *[window.shown(name, False) for name in ADVANCED],
             window.as_wide_as_the_panel(), window.value_range(*range_of_the_wavelet()),
-            # In the default panel as well.
+            # Also without advanced properties.
             window.shown("MinimumComponentVolume", False),
             choose("KeepComponents", "Large Ones"), gui.pause(300),
             window.shown("MinimumComponentVolume", True), choose("KeepComponents", "All"),
@@ -95,7 +95,7 @@ class VolumeWindowTest(window.WindowTestCase):
             *[window.shown(name, True) for name in BASIC + ADVANCED],
             *[window.shown(name, False) for name in ("SeedRadius", "MaximumEdgeLength", "Gradation")],
             window.shown("ScratchDirectory/FileChooser", True),
-            # What a combination would refuse is grey.
+            # Properties that cannot be combined are disabled.
             gui.event(edge_length, "set_string", "2"), gui.pause(300),
             *[gui.check(f"{PROPERTIES}/{name}", "enabled", "false")
               for name in ("FinestLevel", "Tolerance", "ThinParts")],
@@ -107,7 +107,7 @@ class VolumeWindowTest(window.WindowTestCase):
         surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
         self.assertEqual(testing.field(surface, "StopReason"), "converged")
 
-    def test_values_of_a_ct_are_offered_and_the_slider_has_room(self):
+    def test_links_of_value_range(self):
         z, y, x = numpy.mgrid[0:40, 0:40, 0:40]
         distance = numpy.sqrt((x - 20.0)**2 + (y - 20.0)**2 + (z - 20.0)**2)
         voxels = numpy.clip(1500 - 150 * distance, -1000, 1500).astype(numpy.int16)
@@ -117,12 +117,12 @@ class VolumeWindowTest(window.WindowTestCase):
             FILTER, gui.pause(500),
             gui.check(label, "text", "<b>Value Range:</b> [-1000, 1500]<br>CT: "
                       "<a href='226'>bone 226</a>, <a href='-300'>skin -300</a>"),
-            # The first link of the last row, which is the second one or, in a narrow panel, the third.
+            # The first link of the last row: the second row or, in a narrow panel, the third one.
             *[gui.event(label, f"mouse{what}", f"1,{buttons},0,50,{y}")
               for y in (21, 38) for what, buttons in (("Press", 1), ("Release", 0))], gui.pause(500),
             gui.check(ISO_VALUE, "text", "226"),
             gui.check(f"{PROPERTIES}/IsoValue/Slider", "visible", "true"), APPLY,
-            # A magnetic resonance image, though some of its voxels are below 0.
+            # Magnetic resonance, with some voxels below 0.
             *opened(testing.write_volume("mr.vti", testing.make_image(
                 numpy.maximum(voxels, -610), name="MR"))),
             FILTER, gui.pause(300), window.value_range(-610, 1500),
@@ -134,7 +134,7 @@ class VolumeWindowTest(window.WindowTestCase):
 
     @staticmethod
     def series(name, voxels):
-        """Path of a file with the volume at two times."""
+        """Return the path of a file with the volume at two times."""
         testing.write_volume(f"{name}.vti", testing.make_image(voxels.astype("u2")))
         path = testing.output_path(f"{name}.pvd")
         with open(path, "w", encoding="utf-8") as file:
@@ -149,7 +149,7 @@ class VolumeWindowTest(window.WindowTestCase):
         area, volume = (surface.GetFieldData().GetArray(name).GetValue(0)
                         for name in ("Area", "Volume"))
         limit = f"{PROPERTIES}/TimeLimit/DoubleLineEdit0"
-        # So that these are the three digits that are shown.
+        # The panel shows three digits.
         self.assertTrue(1000 < area < 10000 and 1000 < volume < 10000, (area, volume))
         self.play(VOLUME + [
             FILTER, gui.pause(500), gui.check(f"{PROPERTIES}/Result/Summary", "text", "none yet"),
@@ -166,7 +166,7 @@ class VolumeWindowTest(window.WindowTestCase):
                                        "<b>Unfinished</b> (time limit): no surface yet")],
             "volume-summary")
 
-    def test_apply_goes_on_after_a_stop(self):
+    def test_apply_resumes_after_stop(self):
         testing.load_plugin()
         whole = testing.fetch(simple.VolumetoSurface(simple.Wavelet()))
         apply = f"{gui.PANEL}/Accept"
@@ -175,15 +175,15 @@ class VolumeWindowTest(window.WindowTestCase):
                             gui.check(apply, "enabled", "true")]
         applied = [APPLY, gui.pause(300), gui.check(apply, "enabled", "false"),
                    gui.check(f"{PROPERTIES}/Result/Summary", "visible", "true")]
-        self.play(stopped + applied, "volume-goes-on", python=at_level_0)
+        self.play(stopped + applied, "volume-resumed", python=at_level_0)
         self.assertIn("Run 1 Level 1, iteration", self.session.output)
         self.assertRegex(self.session.output, r"Run 1 ended: cancelled with triangles: [1-9]")
         self.assertIn("Run 2 Level 0, iteration", self.session.output)
         self.assertNotIn("Run 2 Level 1, iteration", self.session.output)
         self.assertRegex(self.session.output, r"Run 2 ended: converged .* points: "
                          f"{whole.GetNumberOfPoints()} in {re.escape(str(whole.GetBounds()))}")
-        # With another value that would be a wrong surface.
-        self.play(stopped + [set_iso_value(140), *applied], "volume-begins-anew",
+        # With another value the run restarts.
+        self.play(stopped + [set_iso_value(140), *applied], "volume-restarted",
                   python=at_level_0)
         self.assertIn("Run 2 Level 1, iteration", self.session.output)
 
@@ -195,9 +195,9 @@ class VolumeWindowTest(window.WindowTestCase):
         histogram = f"{PROPERTIES}/IsoValue/Histogram"
 
         def drag(x, to, button=1):
-            """With the left one, or another."""
-            return [gui.event(histogram, what, f"{button},{buttons},0,{place},9")
-                    for what, buttons, place in (("mousePress", button, x),
+            """Return the events of a drag, by default with the left button."""
+            return [gui.event(histogram, what, f"{button},{buttons},0,{position},9")
+                    for what, buttons, position in (("mousePress", button, x),
                                                  ("mouseMove", button, to),
                                                  ("mouseRelease", 0, to))] + [gui.pause(300)]
         pixels = self.play(opened(path) + [
@@ -208,7 +208,7 @@ class VolumeWindowTest(window.WindowTestCase):
             choose("SetInputArrayToProcess", "b"), gui.pause(300), window.value_range(61, 100),
             *drag(9, 5000), gui.check(ISO_VALUE, "text", "100"),
             set_iso_value(80), gui.pause(300)], "volume-histogram")
-        # The line is about the middle of the bars.
+        # The width of the line.
         red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
         line = numpy.nonzero(((red == 208) & (green == 32) & (blue == 32)).sum(axis=0) > 40)[0]
         self.assertEqual(len(line), 2, line)
@@ -220,20 +220,20 @@ class VolumeWindowTest(window.WindowTestCase):
         red, green, blue = (pixels[..., colour].astype(int) for colour in range(3))
         tinted = ((red > green + 25) & (green == blue)).sum(axis=0) > 40
         self.assertGreater(tinted.sum(), 50)
-        # No value parts these voxels.
+        # These voxels have no threshold.
         flat = testing.write_volume("flat.vti", testing.make_image(values * 0 + 7, name="a"))
         self.assertTrue(self.session.play(opened(flat) + [
             FILTER, gui.pause(300), gui.check(histogram, "visible", "false")]),
             self.session.output)
 
-    def test_a_warning_waits_for_the_end(self):
+    def test_warning_after_the_run(self):
         voxels = numpy.zeros((40, 40, 40), numpy.int16)
         voxels[10:30, 10:30, 8:20], voxels[10:30, 10:30, 20:34] = 1, 2
         path = testing.write_volume("labels-for-volume.vti",
                                     testing.make_image(voxels, name="labels"))
-        # A warning opens a box, so not self.play().
+        # Not self.play(), because a warning opens a box.
         succeeded = self.session.play(opened(path) + [FILTER, APPLY, gui.pause(500)],
-                                      python=TELL_THE_PROGRESS)
+                                      python=REPORT_PROGRESS)
         self.session.screenshot(testing.output_path("volume-warning.png"))
         self.assertTrue(succeeded, self.session.output)
         self.assertEqual(self.session.output.count("looks like a label map"), 1)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests in ParaView's window share: menus, the panel, and a case that plays and checks.
+"""Functions of the tests in ParaView's window: menus, the panel, and a test case that plays events.
 
-Pictures of the window at each stage go to VOLUMIC_TEST_OUTPUT, to be looked at.
+Pictures of the window are saved in VOLUMIC_TEST_OUTPUT.
 """
 
 import atexit
@@ -24,12 +24,12 @@ PROPERTIES = f"{gui.PANEL}/scrollArea/qt_scrollarea_viewport/scrollAreaWidgetCon
 APPLY = gui.event(f"{gui.PANEL}/Accept", "activate")
 SHOW_ADVANCED = gui.event(f"{gui.PANEL}/SearchBox/AdvancedButton", "set_boolean", "true")
 ISO_VALUE = f"{PROPERTIES}/IsoValue/DoubleRangeWidget/DoubleLineEdit"
-# For a picture of what lies at the front of the volume.
+# For pictures from the front of the volume.
 FROM_THE_FRONT = [gui.event(f"{gui.WINDOW}/cameraToolbar/actionNegativeY", "activate"),
                   gui.pause(1500)]
 
-# Runs in the window, before a script that defines attend(proxy, algorithm): that is called for each
-# filter that finds a surface, once, as soon as it is made, whoever makes it.
+# Runs in the window before a script that defines attend(proxy, algorithm), which is called for each new
+# filter that finds a surface.
 WATCH_FILTERS = """
 from paraview import servermanager
 watched = []
@@ -45,7 +45,7 @@ def watch(manager, event):
 servermanager.ProxyManager().SMProxyManager.AddObserver("RegisterEvent", lasting(watch))
 """
 
-# Runs in the window: what its File > Change File calls, for the input of a filter.
+# Runs in the window: File > Change File for the input of a filter.
 CHANGE_FILE = """
 from paraview import simple
 filter_ = simple.FindSource({name!r})
@@ -54,13 +54,13 @@ simple.ReplaceReaderFileName(filter_.Input, [{path!r}], "FileName")
 
 
 def open_menu(name):
-    """Newer ParaViews fill a menu when it is opened."""
+    """Return the event that opens a menu, which newer versions of ParaView fill then."""
     return gui.event(f"{gui.WINDOW}/menubar", "activate", name)
 
 
 def open_menu_of_volumic():
-    """Events that open Filters > Volumic by keys, for a picture: it is the last of the categories,
-    from ParaView 5.12 on the last but one."""
+    """Return the events that open Filters > Volumic by keys. It is the last category, since ParaView 5.12
+    the last but one."""
     key_up, key_right = "6,16777235,0,,0,1", "6,16777236,0,,0,1"
     manager = servermanager.vtkSMProxyManager
     version = manager.GetVersionMajor(), manager.GetVersionMinor()
@@ -70,13 +70,13 @@ def open_menu_of_volumic():
 
 
 def source(name):
-    """Events that make a source of the Sources menu and apply it."""
+    """Return the events that make a source of the Sources menu and apply it."""
     return [open_menu("menuSources"),
             gui.event(f"{gui.WINDOW}/menubar/menuSources/Alphabetical", "activate", name), APPLY]
 
 
 def opened(path, answer=()):
-    """Events that open a file and apply its reader; answer: those for a question on the way."""
+    """Return the events that open a file and apply its reader. answer: events for a dialog."""
     return [gui.event(f"{gui.WINDOW}/menubar/menu_File", "activate", "actionFileOpen"),
             gui.event(f"{gui.WINDOW}/FileOpenDialog", "filesSelected", path), gui.pause(500),
             *answer, APPLY, gui.pause(1000)]
@@ -88,7 +88,7 @@ def filter_of_the_menu(name, category="Volumic"):
 
 
 def edit(action):
-    """Undo or redo."""
+    """Return the event of undo or redo."""
     return gui.event(f"{gui.WINDOW}/menubar/menu_Edit", "activate", action)
 
 
@@ -97,7 +97,7 @@ def set_iso_value(value):
 
 
 def choose(property_, choice):
-    """Of those that the panel offers."""
+    """Return the event that chooses an entry of a combo box."""
     return gui.event(f"{PROPERTIES}/{property_}/ComboBox", "set_string", choice)
 
 
@@ -105,26 +105,26 @@ def set_box(property_, on):
     return gui.event(f"{PROPERTIES}/{property_}/CheckBox", "set_boolean", "true" if on else "false")
 
 
-def in_the_pipeline(*places):
-    """Select an entry of the pipeline browser: the place in the list of sources, of filters..."""
-    path = "".join(f"/{place}" for place in (0, *places))
+def in_the_pipeline(*positions):
+    """Return the event that selects an entry of the pipeline browser, by its index at each depth."""
+    path = "".join(f"/{position}" for position in (0, *positions))
     return gui.event(f"{gui.WINDOW}/pipelineBrowserDock/pipelineBrowser", "currentChanged",
                      f"{path}|0")
 
 
 def shown(property_, yes):
-    """Fails the session unless the panel shows the property, or doesn't."""
+    """Return the event that fails unless the property is visible, or is not."""
     return gui.check(f"{PROPERTIES}/{property_}", "visible", "true" if yes else "false")
 
 
 def value_range(low, high):
-    """Fails the session unless this is the range below Iso Value."""
+    """Return the event that fails unless this is the range below Iso Value."""
     return gui.check(f"{PROPERTIES}/IsoValue/ValueRange", "text",
                      f"<b>Value Range:</b> [{low:g}, {high:g}]")
 
 
 def as_wide_as_the_panel():
-    """Fails the session if the panel needs a scroll bar to show all of its width."""
+    """Return the event that fails if the panel has a horizontal scroll bar."""
     return gui.check(f"{gui.PANEL}/scrollArea/qt_scrollarea_hcontainer", "visible", "false")
 
 
@@ -135,15 +135,15 @@ def range_of_the_wavelet(**properties):
 
 
 def iso_of_the_wavelet():
-    """What the panel of Iso Value says for the source RTAnalyticSource."""
+    """Return the text of Iso Value for the source RTAnalyticSource."""
     testing.load_plugin()
     return repr(simple.VolumetoSurface(simple.Wavelet()).IsoValue)
 
 
 def open_state(path, name):
-    """The filter of that name in a saved state, which a script opens."""
+    """Open a state in this process, and return the filter of that name."""
     testing.load_plugin()
-    # What an earlier state has left has the same names.
+    # Sources of an earlier state have the same names.
     for other in simple.GetSources().values():
         simple.Delete(other)
     simple.LoadState(path)
@@ -151,12 +151,12 @@ def open_state(path, name):
 
 
 def proxies_of(state):
-    """Names of the proxies in a saved state."""
+    """Return the names of the proxies in a saved state."""
     return [proxy.get("type") for proxy in ElementTree.parse(state).iter("Proxy")]
 
 
 def middle_of(mask, least):
-    """Of the pixels that are set: (x, y), or None where there are less than that."""
+    """Return the median (x, y) of the set pixels, or None if they are fewer than `least`."""
     rows, columns = mask.nonzero()
     return (int(numpy.median(columns)), int(numpy.median(rows))) if len(rows) >= least else None
 
@@ -166,15 +166,15 @@ def colours(pixels, part):
 
 
 def apply_button(pixels):
-    """Lit up: greener than all else in the left third."""
+    """Return the position of the enabled Apply button (green, in the left third), or None."""
     red, green, blue = colours(pixels, numpy.s_[200:-60, : pixels.shape[1] // 3])
-    place = middle_of((green > 120) & (green > red + 20) & (green > blue + 20), 500)
-    return place and (place[0], place[1] + 200)
+    position = middle_of((green > 120) & (green > red + 20) & (green > blue + 20), 500)
+    return position and (position[0], position[1] + 200)
 
 
 @functools.cache
 def the_session():
-    """That of all tests of the process."""
+    """Return the session of all tests of the process."""
     session = gui.Session(testing.program("paraview"), testing.plugin_path(),
                           os.environ["VOLUMIC_XVFB"])
     atexit.register(session.close)
@@ -190,33 +190,33 @@ class WindowTestCase(unittest.TestCase):
         self.session.forget_codes()
 
     def play(self, events, picture, **options):
-        """Play the events in the window, and take its picture, also if an event failed.
+        """Play the events in the window, and save its picture.
 
         options: of Session.play
         """
         succeeded = self.session.play(events, **options)
         pixels = self.session.screenshot(testing.output_path(f"{picture}.png"))
         self.assertTrue(succeeded, self.session.output)
-        # A warning opens a box over the window, and is none that the plugin's hints may cause.
+        # Warnings open a box over the window.
         for word in ("ERR|", "critical:", "warning:"):
             self.assertNotIn(word, self.session.output)
         return pixels
 
     def changes_of_file(self, filter_, files):
-        """{name: events} for {name: path}: the file takes the place of that of a filter of this
-        name, which is the only one, and both are applied."""
+        """Return {name: events} for {name: path}: replace the file of the only filter, of this name, and
+        apply both."""
         return {name: [
-            # Change File is in a menu that the recorder doesn't reach.
+            # The test recorder does not support the menu of Change File.
             self.session.add_code(CHANGE_FILE.format(name=filter_, path=path)),
             gui.pause(500), in_the_pipeline(0), gui.pause(300), APPLY, in_the_pipeline(0, 0),
             gui.pause(500)] for name, path in files.items()}
 
-    def until_told(self, start, times):
-        """An event that lets the window go on till so many lines have begun like that."""
-        return self.session.add_code(f"until(lambda: times_told({start!r}) >= {times})")
+    def until_printed(self, start, times):
+        """Return the event that waits for that many printed lines with that start."""
+        return self.session.add_code(f"until(lambda: count_lines({start!r}) >= {times})")
 
     def saved_state(self, name):
-        """Path of a state, and the events that save it from the window."""
+        """Return the path of a state, and the events that save it from the window."""
         path = testing.output_path(name)
         if os.path.exists(path):
             os.remove(path)

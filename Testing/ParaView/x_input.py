@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A mouse and a keyboard for the screen of gui_session.py, by X's extension XTEST (libXtst).
+"""Mouse and keyboard for the screen of gui_session.py, by the X extension XTEST (libXtst).
 
-Events that are played reach Qt's widgets, but no shortcuts, and the window does not know where the
-mouse is.
+Played events do not trigger shortcuts, and have no mouse position.
 """
 
 import ctypes
@@ -31,13 +30,13 @@ class Input:
         time.sleep(0.1)
 
     def move(self, x, y):
-        """To a place of the screen, by way of another, so that it is a move in any case."""
-        for place in ((x + 9, y + 9), (x, y)):
-            self._xtst.XTestFakeMotionEvent(self._display, -1, *place, ctypes.c_ulong(0))
+        """Move to a position on the screen, from another position, so that an event occurs."""
+        for position in ((x + 9, y + 9), (x, y)):
+            self._xtst.XTestFakeMotionEvent(self._display, -1, *position, ctypes.c_ulong(0))
             self._flush()
 
     def focus(self):
-        """Give the keyboard to the window under the mouse: there is no window manager to do it."""
+        """Set the keyboard focus to the window under the mouse; there is no window manager."""
         root = self._x11.XDefaultRootWindow(self._display)
         window, child = ctypes.c_ulong(), ctypes.c_ulong()
         x, y, z = ctypes.c_int(), ctypes.c_int(), ctypes.c_uint()
@@ -49,7 +48,7 @@ class Input:
         time.sleep(1)
 
     def key(self, *names):
-        """Several are held together."""
+        """Press keys together."""
         codes = [self._x11.XKeysymToKeycode(
             self._display, ctypes.c_ulong(self._x11.XStringToKeysym(name.encode())))
             for name in names]
@@ -58,13 +57,13 @@ class Input:
             self._flush()
 
     def drag(self, start, end):
-        """With the left button, in steps, as a hand does."""
+        """Drag with the left button in several steps."""
         self.move(*start)
         self._xtst.XTestFakeButtonEvent(self._display, 1, 1, ctypes.c_ulong(0))
         self._flush()
         for step in range(1, 6):
-            place = [round(a + (b - a) * step / 5) for a, b in zip(start, end)]
-            self._xtst.XTestFakeMotionEvent(self._display, -1, *place, ctypes.c_ulong(0))
+            position = [round(a + (b - a) * step / 5) for a, b in zip(start, end)]
+            self._xtst.XTestFakeMotionEvent(self._display, -1, *position, ctypes.c_ulong(0))
             self._flush()
         self._xtst.XTestFakeButtonEvent(self._display, 1, 0, ctypes.c_ulong(0))
         self._flush()

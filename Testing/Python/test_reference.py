@@ -1,10 +1,10 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documentation/reference.md says of every property and array what the filters have, no more."""
+"""Documentation/reference.md has exactly the properties and arrays of the filters."""
 
-import math
 import os
 import re
+import sys
 import unittest
 
 import numpy as np
@@ -13,37 +13,28 @@ from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
 
 from sample_volumes import RING_ISO, RING_SPACING, ROOT, make_image, ring_voxels
 
-REFERENCE = os.path.join(ROOT, "Documentation", "reference.md")
-DEFAULTS = {"on": True, "off": False, "none": math.nan, "infinite": math.inf,
-            "sqrt(3)": math.sqrt(3), "empty": ""}
+sys.path.insert(0, os.path.join(ROOT, "Documentation"))
+import reference_tables  # pylint: disable=wrong-import-position
 
 
-def property_names(algorithm):
-    """The properties of the filter's own class that are a number, a switch or a text."""
-    names = []
-    for name in (name[3:] for name in vars(type(algorithm)) if name.startswith("Set")):
-        try:
-            value = getattr(algorithm, "Get" + name, lambda: None)()
-        except TypeError:  # of more than one value, such as the names of labels
-            continue
-        if isinstance(value, (int, float, str)):
-            names.append(name)
-    return sorted(names)
+def read_page():
+    with open(reference_tables.PAGE, encoding="utf-8") as file:
+        return file.read()
 
 
 def tables():
-    """For each heading the rows of the first table below it: {name: second column}."""
-    with open(REFERENCE, encoding="utf-8") as file:
-        sections = re.split(r"^#+ (.*)$", file.read(), flags=re.MULTILINE)
+    """Return the rows of the first table below each heading: {name: second column}."""
+    sections = re.split(r"^#+ (.*)$", read_page(), flags=re.MULTILINE)
     found = {}
     for heading, text in zip(sections[1::2], sections[2::2]):
-        rows = re.findall(r"^\| *`?([^|`]+?)`? *\| *([^|]*?) *\|", text, flags=re.MULTILINE)
-        found[heading] = dict(rows[2:])  # without the head and the line below it
+        rows = re.findall(r"^\| *([^|]+?) *\| *([^|]*?) *\|", text, flags=re.MULTILINE)
+        found[heading] = {name: value for names, value in rows[2:]  # below the titles and the line
+                          for name in re.findall(r"`([^`]+)`", names) or [names]}
     return found
 
 
 def arrays_of(attributes):
-    """{name: type as the reference writes it}."""
+    """Return {name: type as in the reference}."""
     arrays = [attributes.GetAbstractArray(i) for i in range(attributes.GetNumberOfArrays())]
     return {a.GetName(): a.GetDataTypeAsString() + (f", {a.GetNumberOfComponents()}"
                                                     if a.GetNumberOfComponents() > 1 else "")
@@ -60,7 +51,7 @@ class ReferenceTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        if cls is not ReferenceTest:  # One run serves all classes.
+        if cls is not ReferenceTest:  # one run for all classes
             if not hasattr(ReferenceTest, "tables"):
                 ReferenceTest.setUpClass()
             return
@@ -80,26 +71,16 @@ class ReferenceTest(unittest.TestCase):
 
 
 class PropertiesTest(ReferenceTest):
-    def test_names_and_defaults(self):
-        for kind in (volumic.vtkImagePyramid, volumic.vtkDeformableSurface,
-                     volumic.vtkVolumeToSurface, volumic.vtkOtsuThreshold,
-                     volumic.vtkLabelsToSurfaces):
-            algorithm = kind()
-            rows = self.tables[f"Properties of {kind.__name__}"]
-            with self.subTest(kind.__name__):
-                self.assertEqual(sorted(rows), property_names(algorithm))
-            for name, text in rows.items():
-                with self.subTest(kind.__name__, property=name):
-                    default = DEFAULTS[text] if text in DEFAULTS else float(text)
-                    np.testing.assert_equal(getattr(algorithm, "Get" + name)(), default)
+    def test_tables_are_up_to_date(self):
+        """If this fails, run Documentation/reference_tables.py."""
+        self.assertEqual(read_page(), reference_tables.updated(read_page()))
 
-    def test_printing_tells_all(self):
-        """A filter prints the table of its properties."""
+    def test_print_self_has_all_properties(self):
         for kind in (volumic.vtkImagePyramid, volumic.vtkDeformableSurface,
                      volumic.vtkVolumeToSurface, volumic.vtkLabelsToSurfaces):
             algorithm = kind()
             printed = dict(re.findall(r"^ +(\w+): ?(.*)$", str(algorithm), re.MULTILINE))
-            names = property_names(algorithm)
+            names = reference_tables.property_names(algorithm)
             self.assertEqual(set(names) - set(printed), set(), kind.__name__)
             for name in names:
                 value = getattr(algorithm, "Get" + name)()
@@ -108,14 +89,14 @@ class PropertiesTest(ReferenceTest):
                 else:
                     np.testing.assert_allclose(float(printed[name]), value, 1e-5, 0, name)
 
-    def test_no_class_is_left_out(self):
+    def test_all_classes_are_documented(self):
         classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
                    and hasattr(getattr(volumic, name), "GetOutputPort")]
         self.assertGreater(len(classes), 3)
         for name in classes:
             self.assertIn(name, self.tables)
-            if property_names(getattr(volumic, name)()):
-                self.assertIn(f"Properties of {name}", self.tables)
+            if reference_tables.property_names(getattr(volumic, name)()):
+                self.assertIn(f"<!-- properties of {name} -->", read_page())
 
 
 class PyramidTest(ReferenceTest):
@@ -138,8 +119,7 @@ class SurfaceTest(ReferenceTest):
         return [self.surface.GetOutput(), *blocks_of(self.surface.GetLevels())]
 
     def test_ports(self):
-        with open(REFERENCE, encoding="utf-8") as file:
-            rows = re.findall(r"^\| (\d) \| `\w+` \| `(\w+)` \|", file.read(), flags=re.MULTILINE)
+        rows = re.findall(r"^\| (\d) \| `\w+` \| `(\w+)` \|", read_page(), flags=re.MULTILINE)
         kinds = [(str(port), self.surface.GetOutputDataObject(port).GetClassName())
                  for port in range(self.surface.GetNumberOfOutputPorts())]
         self.assertEqual(rows, kinds)

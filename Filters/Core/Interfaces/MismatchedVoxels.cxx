@@ -19,14 +19,14 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Faces, or voxels, that a thread looks at at a time. */
+/** Faces or voxels per span of a parallel loop. */
 constexpr std::size_t SpanSize = 4096;
 
-/** Where a row of voxel centres along x crosses a face. */
+/** Crossing of a row of voxel centres along x with a face. */
 struct FaceCrossing
 {
   std::int64_t Row;
-  double X; ///< voxels
+  double X; ///< in voxels
   int Winding;
   int Face;
 
@@ -95,7 +95,7 @@ private:
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
-    std::vector<std::pair<Number, int>> windings; // of the objects that the row is in
+    std::vector<std::pair<Number, int>> windings; // non-zero winding numbers of objects
     const auto add = [&](Number object, int winding)
     {
       auto at = std::find_if(windings.begin(), windings.end(),

@@ -49,7 +49,7 @@ void VoxelBits::AddShifted(const VoxelBits& others, int axis, int by)
   const auto length = static_cast<std::size_t>(std::abs(by));
   if (axis > 0)
   {
-    // Rows follow each other along y, then along z: parts of a layer, or of the box.
+    // Rows are stored along y, then along z.
     const std::size_t step =
       words * (axis == 1 ? 1 : static_cast<std::size_t>(this->Voxels.Length(1)));
     const std::size_t block = step * static_cast<std::size_t>(this->Voxels.Length(axis));
@@ -91,7 +91,7 @@ VoxelBits VoxelBits::Grown(int axis, int voxels) const
   VoxelBits grown = *this;
   for (int done = 0; done < voxels;)
   {
-    // What has been grown by n leaves no gaps in two copies that are 2 n + 1 further.
+    // A set dilated by n, shifted by up to 2 n + 1 in both directions, leaves no gaps.
     const int step = std::min({ 2 * done + 1, voxels - done, WordSize - 1 });
     const VoxelBits before = grown;
     grown.AddShifted(before, axis, step);
