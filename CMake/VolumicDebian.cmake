@@ -93,7 +93,7 @@ if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
     "python3-paraview, python3-numpy, ${volumic_python_recommends}")
   list(APPEND CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS "${VOLUMIC_PLUGIN_DIR}")
   volumic_describe_package(plugin paraview-volumic science
-    "trustworthy surfaces from 3D images, plugin for ParaView")
+    "closed surfaces from 3D images, plugin for ParaView")
 else ()
   set(group runtime)
   set(package volumic)
@@ -109,9 +109,9 @@ else ()
     endforeach ()
   endif ()
   volumic_describe_package(runtime volumic science
-    "trustworthy surfaces from 3D images, command and Python package")
+    "closed surfaces from 3D images, command and Python package")
   volumic_describe_package(development volumic-dev libdevel
-    "trustworthy surfaces from 3D images, development files")
+    "closed surfaces from 3D images, development files")
   set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "volumic (= ${volumic_debian_version}), libvtk9-dev (>= 9.1)")
 endif ()

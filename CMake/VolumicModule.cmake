@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Builds the VTK module Volumic::FiltersVolumic, for VTK or for ParaView.
+# Build the VTK module Volumic::FiltersVolumic for VTK or ParaView.
 
 # Both variants can be installed under one prefix: names for ParaView have a suffix, as Debian's libraries.
 if (VOLUMIC_BUILD_PARAVIEW_PLUGIN)
@@ -48,3 +48,10 @@ function (volumic_build_module)
 endfunction ()
 
 volumic_build_module()
+
+# VTK installs the LICENSE_FILES of vtk.module from version 9.2 on.
+if (VTK_VERSION VERSION_LESS 9.2)
+  install(FILES "${CMAKE_SOURCE_DIR}/LICENSE"
+    DESTINATION "${CMAKE_INSTALL_DATAROOTDIR}/licenses/Volumic/vtkFiltersVolumic"
+    COMPONENT licenses)
+endif ()

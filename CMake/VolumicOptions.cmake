@@ -30,7 +30,7 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
-# Debian packages (VolumicDebian.cmake) install into /usr, and the paths below it are fixed here.
+# Debian packages (VolumicDebian.cmake) are installed into /usr with these paths.
 set(volumic_makes_packages OFF)
 if (CMAKE_LIBRARY_ARCHITECTURE
     AND CMAKE_INSTALL_LIBDIR STREQUAL "lib/${CMAKE_LIBRARY_ARCHITECTURE}")

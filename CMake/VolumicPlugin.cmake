@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The ParaView plugin `Volumic`, in the folder where ParaView looks for plugins.
+# Build the ParaView plugin `Volumic` in a folder that ParaView searches for plugins.
 
 set(volumic_plugin_subdirectory
   "paraview-${ParaView_VERSION_MAJOR}.${ParaView_VERSION_MINOR}/plugins")
@@ -10,7 +10,7 @@ set(VOLUMIC_PLUGIN_DIR
   "${CMAKE_BINARY_DIR}/${CMAKE_INSTALL_LIBDIR}/${volumic_plugin_subdirectory}/Volumic")
 
 function (volumic_build_plugin)
-  # From <lib>/paraview-x.y/plugins/Volumic to <lib>, where the module's library is.
+  # From <lib>/paraview-x.y/plugins/Volumic to the module's library in <lib>.
   list(PREPEND CMAKE_INSTALL_RPATH "$ORIGIN/../../..")
   paraview_plugin_scan(
     PLUGIN_FILES "${CMAKE_SOURCE_DIR}/Plugin/paraview.plugin"

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The Python package `volumic`: VTK's wrapper of the module, the sources of Python/volumic, and type
-# stubs for editors. Without ParaView also the command `volumic`, a script that starts the package.
+# Build the Python package `volumic`: the Python wrapping of the module, the sources of Python/volumic
+# and type stubs for editors. The build with VTK adds the command `volumic`, a script.
 
 find_package(Python3 REQUIRED COMPONENTS Interpreter Development.Module)
 
@@ -29,7 +29,7 @@ set(volumic_python_build_directory "${CMAKE_BINARY_DIR}/${VOLUMIC_PYTHON_DESTINA
 set(volumic_python_package "${volumic_python_build_directory}/volumic")
 
 function (volumic_wrap_python)
-  # From <python>/volumic up to the prefix, and down to the library.
+  # From <python>/volumic to the library, by way of the prefix.
   file(RELATIVE_PATH up "/prefix/${VOLUMIC_PYTHON_DESTINATION}/volumic" "/prefix/${CMAKE_INSTALL_LIBDIR}")
   set(CMAKE_INSTALL_RPATH "$ORIGIN/${up}")
   vtk_module_wrap_python(
@@ -53,6 +53,10 @@ else ()
   if (NOT EXISTS "/etc/debian_version")
     set(volumic_python_hint "Use the Python of that VTK.")
   endif ()
+endif ()
+if (NOT DEFINED volumic_vtk_version) # VolumicWheel.cmake requires more
+  set(volumic_vtk_version "${VTK_MAJOR_VERSION}.${VTK_MINOR_VERSION}")
+  set(volumic_vtk_folder "")
 endif ()
 configure_file("${volumic_python_sources}/__init__.py.in" "${volumic_python_package}/__init__.py"
   @ONLY)

@@ -6,7 +6,7 @@
 # CMAKE_COMPILE_WARNING_AS_ERROR=ON (CMake 3.24) turns warnings into errors.
 
 if (NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
-  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it knows the flags of GCC and Clang only, "
+  message(WARNING "VOLUMIC_EXTRA_WARNINGS adds nothing: it supports GCC and Clang, "
     "not those of ${CMAKE_CXX_COMPILER_ID}.")
   return ()
 endif ()

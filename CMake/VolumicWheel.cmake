@@ -28,3 +28,13 @@ if (missing)
     "  --config-settings=cmake.define.VTK_DIR=<lib/cmake/vtk-...>\n"
     "${VTK_NOT_FOUND_MESSAGE}")
 endif ()
+
+# A wheel works only with the VTK that it was compiled for. The package checks that when it is
+# imported (Python/volumic/__init__.py.in). pip checks it as well where it lists VTK as the
+# distribution `vtk`, which it does not on Debian 12 and 13.
+set(volumic_vtk_version "${VTK_VERSION}")
+set(packages "${VTK_PREFIX_PATH}/${VTK_PYTHONPATH}")
+get_filename_component(volumic_vtk_folder "${packages}/vtkmodules" REALPATH)
+if (DEFINED ENV{VOLUMIC_WHEEL_REQUIREMENT} AND EXISTS "${packages}/vtk-${VTK_VERSION}.dist-info")
+  file(WRITE "$ENV{VOLUMIC_WHEEL_REQUIREMENT}" "vtk==${VTK_VERSION}")
+endif ()

@@ -6,7 +6,7 @@
 # (see Testing/arm64_root.sh). The preset `arm64` uses it.
 
 if (NOT VOLUMIC_ARM64_ROOT)
-  message(FATAL_ERROR "VOLUMIC_ARM64_ROOT is not set: the folder that Testing/arm64_root.sh makes.")
+  message(FATAL_ERROR "Set VOLUMIC_ARM64_ROOT to the folder that Testing/arm64_root.sh makes.")
 endif ()
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES VOLUMIC_ARM64_ROOT)
 

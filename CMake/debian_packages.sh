@@ -184,7 +184,7 @@ paraview_packages()
   else
     printf '%s\n' "${qt5_packages[@]}"
   fi
-  # From 6.1 on Debian's ParaView is built with Debian's VTK, whose headers its own package lacks.
+  # From 6.1 on Debian's ParaView uses Debian's VTK, and paraview-dev has no headers of VTK.
   [ -z "$(dependencies paraview | grep '^libvtk9')" ] || printf '%s\n' libvtk9-dev libvtk9-qt-dev
 }
 

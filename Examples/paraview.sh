@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# From a bare Debian to ParaView with the plugin: installs what is missing, builds the plugin alone
-# under build/, tells where it is, and starts ParaView with it and the CT of a skull.
+# Install missing packages on Debian, build the ParaView plugin under build/, and start ParaView with
+# the plugin and the CT of a skull.
 
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -12,8 +12,8 @@ usage()
 {
   cat << 'USAGE'
 Usage: bash Examples/paraview.sh [--no-start]
-  --no-start   build, and tell how to start ParaView
-  --help       this text
+  --no-start   build, and print how to start ParaView
+  --help       print this help
 USAGE
 }
 
@@ -35,15 +35,16 @@ prepare_skull
 build_paraview_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 plugin=$(find "$build/install-paraview" -name Volumic.so)
-[ -n "$plugin" ] || fail "No plugin in $build/install-paraview. See $logs/build-paraview.log"
+[ -n "$plugin" ] || fail "No plugin in $build/install-paraview; see $logs/build-paraview.log."
 start=("$(paraview_prefix)/bin/paraview" --plugin-search-paths="$(dirname "$plugin")"
   --plugins=Volumic --data="$(cranium)")
 say ""
-say "The plugin: $plugin
-To have it in each ParaView that you start: Tools > Manage Plugins... > Load New..., choose that
-file, and tick Auto Load. ParaView with the plugin and the skull:
+say "Plugin: $plugin
+To load the plugin in ParaView: Tools > Manage Plugins... > Load New..., choose this file, and check
+Auto Load. To start ParaView with the plugin and the skull:
   ${start[*]}
-There: Apply, Filters > Volumic > Volume to Surface, 226.5 as Iso Value for the bone, Apply."
+Then press Apply, choose Filters > Volumic > Volume to Surface, set Iso Value to 226.5 (bone), and
+press Apply."
 if [ "$starts" = yes ] && [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   exec "${start[@]}"
 fi

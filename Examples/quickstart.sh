@@ -4,10 +4,10 @@
 #
 # Examples/quickstart.sh [VOLUME [ISO]] [--output DIR]
 #
-# Installs what is missing, builds Volumic for VTK under build/, and makes the surface of a volume
-# with the command `volumic`: by default of a skull CT (Debian's package invesalius-examples), else
-# of VOLUME, a file or a folder of DICOM slices, at the value ISO (by default Otsu's threshold). The
-# results go to build/quickstart/ or DIR.
+# Install missing packages, build Volumic for VTK under build/, and compute the surface of a volume
+# with the command `volumic`. VOLUME is a file or a folder of DICOM slices (default: the skull CT in
+# Debian's package invesalius-examples), ISO the iso-value (default: Otsu's threshold). Results are
+# written to build/quickstart/ or DIR.
 
 set -euo pipefail
 
@@ -53,7 +53,7 @@ if [ "${#inputs[@]}" -eq 0 ]; then
   steps=$((steps + $(skull_steps)))
   mapfile -t -O "${#packages[@]}" packages < <(skull_packages)
 elif [[ ${inputs[0]} == *.vti ]]; then
-  copy= # ParaView reads it as it is
+  copy= # ParaView reads .vti
 fi
 plan_steps $steps
 install_packages "${tool_packages[@]}" "${packages[@]}" xvfb xauth libgl1-mesa-dri
@@ -61,7 +61,7 @@ install_packages "${tool_packages[@]}" "${packages[@]}" xvfb xauth libgl1-mesa-d
 build_vtk_flavour -DVOLUMIC_BUILD_TESTING=OFF -DVOLUMIC_BUILD_EXAMPLES=OFF
 
 command=$build/install-vtk/bin/volumic
-# Wherever this Python's version puts packages.
+# The folder depends on the Python version.
 package=$(find "$build/install-vtk" -path '*-packages/volumic' -print -quit)
 make_surface()
 {
@@ -76,12 +76,12 @@ draw_pictures()
     xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" \
     "$(vtk_python)" "$root/Examples/Python/pictures.py" "${inputs[0]}" "$output"
 }
-run_step "Making the surface" quickstart-surface make_surface
+run_step "Computing the surface" quickstart-surface make_surface
 run_step "Drawing pictures" quickstart-pictures draw_pictures
 
 say ""
 cat "$logs/quickstart-surface.log"
 say "Written to $output: $(ls -m "$output" | tr '\n' ' ')"
-say "To use it yourself:
+say "To use Volumic:
   $command --help
   PYTHONPATH=${package%/volumic} $(vtk_python) -c 'import volumic; help(volumic)'"

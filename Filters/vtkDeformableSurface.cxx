@@ -39,7 +39,7 @@ int vtkDeformableSurface::FillInputPortInformation(int port, vtkInformation* inf
 {
   if (port == 0)
   {
-    // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+    // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
     info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   }
   else
@@ -100,13 +100,13 @@ bool vtkDeformableSurface::GetNeedsUpdate()
 {
   vtkInternals& internals = *this->Internals;
   internals.IsWatched = true;
-  if (!internals.Settings.End.ShowLevels || !internals.IsOnTheWay)
+  if (!internals.Settings.End.ShowLevels || !internals.IsBetweenLevels)
   {
     return false;
   }
-  internals.IsOnTheWay = false;
-  // The run of level 0 is not kept: level -1 is not reached from there.
-  internals.GoesToTheEnd = !internals.Kept || !internals.Kept->CanGoOn();
+  internals.IsBetweenLevels = false;
+  // A run that ended at level 0 is not kept, so level -1 needs a new run.
+  internals.RunsToTheEnd = !internals.Kept || !internals.Kept->CanResume();
   this->GoOn();
   return true;
 }
@@ -119,8 +119,8 @@ vtkSmartPointer<vtkPolyData> vtkDeformableSurface::NewLeftOutComponents()
 
 void vtkDeformableSurface::SetAbortExecute(vtkTypeBool abort)
 {
-  // Who presses twice may be heard after the run has ended: that neither makes the filter run again
-  // nor others stop.
+  // A second request may arrive after the run has ended. It must not make the filter run again, or
+  // stop other filters.
   this->AbortExecute = abort && this->Internals->IsRunning;
 }
 
@@ -160,8 +160,8 @@ int vtkDeformableSurface::RequestData(
     this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surface. Set Scratch Directory, set "
-             "Finest Level to a coarser level, or crop the image.";
+      return "Input port 0: not enough memory for the surface. Set Scratch Directory, set Finest "
+             "Level to a coarser level, or crop the image.";
     },
     [&]
     {
@@ -170,7 +170,7 @@ int vtkDeformableSurface::RequestData(
       internals.Update(inputVector, outputVector, observer);
     }));
   internals.IsRunning = false;
-  if (!internals.IsAlone && levels->GetNumberOfBlocks() == 0) // After an error, or stopped early.
+  if (!internals.IsAlone && levels->GetNumberOfBlocks() == 0) // after an error or an early stop
   {
     internals.MakeEmptyLevels(inputVector[0], levels);
   }
@@ -178,9 +178,9 @@ int vtkDeformableSurface::RequestData(
   {
     this->ForgetRun();
   }
-  // Not while another run is still to come.
+  // Warn after the last step of several.
   for (const std::string& text :
-    internals.IsOnTheWay ? std::vector<std::string>() : std::exchange(internals.Warnings, {}))
+    internals.IsBetweenLevels ? std::vector<std::string>() : std::exchange(internals.Warnings, {}))
   {
     vtkWarningMacro(<< text);
   }

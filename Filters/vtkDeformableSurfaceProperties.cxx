@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The properties of vtkDeformableSurface: its Set and Get methods write to and read from one
-// volumic::SegmentationSettings, and PrintSelf() prints them, by the lines of PropertyTable.h.
+// The Set and Get methods of vtkDeformableSurface, which write and read a
+// volumic::SegmentationSettings, and PrintSelf(). All are generated from PropertyTable.h.
 
 #include "vtkDeformableSurface.h"
 
@@ -17,7 +17,7 @@
 
 namespace
 {
-/** Whether the enumerations of the class, for its users, are those of the settings. */
+/** Return whether a value of a public enumeration has the same number in the settings. */
 template <typename Ours>
 constexpr bool AreEqual(int theirs, Ours ours)
 {
@@ -27,8 +27,7 @@ constexpr bool AreEqual(int theirs, Ours ours)
 using Class = vtkDeformableSurface;
 
 using volumic::InitializationType;
-static_assert(
-  AreEqual(Class::EnclosingIcosahedron, InitializationType::EnclosingIcosahedron) &&
+static_assert(AreEqual(Class::EnclosingIcosahedron, InitializationType::EnclosingIcosahedron) &&
   AreEqual(Class::Seeds, InitializationType::Seeds) &&
   AreEqual(Class::IsoSurface, InitializationType::IsoSurface) &&
   AreEqual(Class::InputSurface, InitializationType::InputSurface));
@@ -59,48 +58,48 @@ void CopyPosition(const std::vector<volumic::Point>& positions, int index, doubl
 }
 
 //------------------------------------------------------------------------------
-#define VolumicSetting(name, type, field, needsRun)                                                \
-  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field,                 \
+#define VolumicSetting(name, type, field, needsRun)                                \
+  VOLUMIC_SET_AND_GET(vtkDeformableSurface, name, type, Internals->Settings.field, \
     this->Internals->Modify(needsRun))
 #define VolumicWritten(name, type, field, needsRun)
 VOLUMIC_SURFACE_PROPERTIES(VolumicSetting, VolumicWritten)
 
 //------------------------------------------------------------------------------
-VOLUMIC_DEPRECATED(vtkDeformableSurface, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
-VOLUMIC_DEPRECATED(vtkDeformableSurface, Resume, bool, "Runs begin anew.")
+VOLUMIC_DEPRECATED(vtkDeformableSurface, MemoryLimit, int, VOLUMIC_MEMORY_LIMIT_WARNING)
+VOLUMIC_DEPRECATED(vtkDeformableSurface, Resume, bool, "The filter keeps its last run by itself.")
 VOLUMIC_DEPRECATED(vtkDeformableSurface, Profile, bool, "The history has no more columns.")
 
 //------------------------------------------------------------------------------
-// A list of positions: names of one and of all, where it is, and whether it needs a run.
-#define VolumicPositions(one, all, field, needsRun)                                                \
-  void vtkDeformableSurface::Add##one(double x, double y, double z)                                \
-  {                                                                                                \
-    this->Internals->Settings.field.push_back({ x, y, z });                                        \
-    this->Internals->Modify(needsRun);                                                             \
-  }                                                                                                \
-  void vtkDeformableSurface::Clear##all()                                                          \
-  {                                                                                                \
-    this->Internals->Settings.field.clear();                                                       \
-    this->Internals->Modify(needsRun);                                                             \
-  }                                                                                                \
-  int vtkDeformableSurface::GetNumberOf##all()                                                     \
-  {                                                                                                \
-    return static_cast<int>(this->Internals->Settings.field.size());                               \
-  }                                                                                                \
-  void vtkDeformableSurface::Get##one(int index, double position[3])                               \
-  {                                                                                                \
-    CopyPosition(this->Internals->Settings.field, index, position);                                \
+// The methods of a list of positions: names of an entry and of the list, member of the settings,
+// and whether a change needs a new run.
+#define VolumicPositions(one, all, field, needsRun)                  \
+  void vtkDeformableSurface::Add##one(double x, double y, double z)  \
+  {                                                                  \
+    this->Internals->Settings.field.push_back({ x, y, z });          \
+    this->Internals->Modify(needsRun);                               \
+  }                                                                  \
+  void vtkDeformableSurface::Clear##all()                            \
+  {                                                                  \
+    this->Internals->Settings.field.clear();                         \
+    this->Internals->Modify(needsRun);                               \
+  }                                                                  \
+  int vtkDeformableSurface::GetNumberOf##all()                       \
+  {                                                                  \
+    return static_cast<int>(this->Internals->Settings.field.size()); \
+  }                                                                  \
+  void vtkDeformableSurface::Get##one(int index, double position[3]) \
+  {                                                                  \
+    CopyPosition(this->Internals->Settings.field, index, position);  \
   }
-VolumicPositions(SeedPosition, SeedPositions, End.SeedPositions,
-  this->GetInitialization() == Seeds)
-VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, true)
+VolumicPositions(SeedPosition, SeedPositions, End.SeedPositions, this->GetInitialization() == Seeds)
+  VolumicPositions(AttractingPosition, AttractingPositions, AttractingPositions, true)
 
-//------------------------------------------------------------------------------
-void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
+  //------------------------------------------------------------------------------
+  void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-#define VolumicPrint(name, type, field, needsRun)                                                  \
-  volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field);              \
+#define VolumicPrint(name, type, field, needsRun)                                     \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->Settings.field); \
   os << endl;
   VOLUMIC_SURFACE_PROPERTIES(VolumicPrint, VolumicPrint)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
@@ -108,7 +107,7 @@ void vtkDeformableSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Profile: " << this->Internals->Profile << endl;
 }
 
-// Files may be compiled together.
+// The source files may be compiled as one (UNITY_BUILD).
 #undef VolumicSetting
 #undef VolumicWritten
 #undef VolumicPositions

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The work of vtkDeformableSurface::RequestData(): read the request, then reuse, resume or replace
+// The work of vtkDeformableSurface::RequestData(): make the request, then reuse, resume or replace
 // the kept run.
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/Pipeline.h"
@@ -29,20 +29,23 @@
 
 namespace
 {
-/** Share of the pyramid in the progress, if the input is an image. */
-constexpr double PyramidShare = 0.02;
+/** Fraction of the progress for the pyramid, if the input is an image. */
+constexpr double PyramidFraction = 0.02;
 
 bool IsImage(const volumic::SegmentationRequest& request)
 {
   return vtkMultiBlockDataSet::SafeDownCast(request.Volume) == nullptr;
 }
 
-/** Return the image that the pipeline announces, or that of its cells, without voxels. */
-vtkSmartPointer<vtkImageData> FrameOf(vtkInformation* info, bool ofCells)
+/**
+ * Return the extent and spacing of the image in the pipeline information, without voxels.
+ * @param areCells whether the voxels are the cells
+ */
+vtkSmartPointer<vtkImageData> ImageGeometry(vtkInformation* info, bool areCells)
 {
   std::array<int, 6> extent;
   info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent.data());
-  for (std::size_t last = 1; ofCells && last < extent.size(); last += 2)
+  for (std::size_t last = 1; areCells && last < extent.size(); last += 2)
   {
     extent[last] = std::max(extent[last - 1], extent[last] - 1);
   }
@@ -68,7 +71,7 @@ void vtkDeformableSurface::vtkInternals::Modify(bool needsRun)
 }
 
 //------------------------------------------------------------------------------
-volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
+volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::MakeRequest(
   vtkInformationVector** inputs)
 {
   volumic::SegmentationRequest request;
@@ -80,8 +83,8 @@ volumic::SegmentationRequest vtkDeformableSurface::vtkInternals::RequestAsSet(
   request.AttractingPoints = vtkPolyData::GetData(inputs[2]);
   request.Selection = this->Filter.GetInputArrayInformation(0);
   request.EdgeSelection = this->Filter.GetInputArrayInformation(1);
-  request.MayGoOn = volumic::MayKeepRun(&this->Filter);
-  // A user at a window may select other components. Else they would waste memory.
+  request.MayResume = volumic::MayKeepRun(&this->Filter);
+  // Only a user at a window selects other components later.
   request.KeepsAll = this->IsWatched && this->Settings.End.ScratchDirectory.empty();
   return request;
 }
@@ -91,11 +94,11 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest
 {
   volumic::SegmentationEnd& end = request.Settings.End;
   const bool isWatched = end.ShowLevels && this->IsWatched && this->IsAlone;
-  if (!isWatched || std::exchange(this->GoesToTheEnd, false))
+  if (!isWatched || std::exchange(this->RunsToTheEnd, false))
   {
     return;
   }
-  if (!this->Kept || !this->Kept->CanGoOn())
+  if (!this->Kept || !this->Kept->CanResume())
   {
     request.IsStep = !end.Preview;
     end.Preview = true;
@@ -103,7 +106,7 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest
   }
   const int next = this->Kept->NextLevel();
   if (!end.Preview && request.Settings.EdgeLength == 0.0 &&
-    !request.Settings.Grading.IsWanted() && next > std::max(end.FinestLevel, 0))
+    !request.Settings.Grading.IsRequested() && next > std::max(end.FinestLevel, 0))
   {
     end.FinestLevel = next;
     request.IsStep = true;
@@ -114,25 +117,25 @@ void vtkDeformableSurface::vtkInternals::ChooseStep(volumic::SegmentationRequest
 std::unique_ptr<volumic::SegmentationRun> vtkDeformableSurface::vtkInternals::NewRun(
   volumic::SegmentationRequest request, volumic::RunObserver& observer)
 {
-  const auto progress = [&observer](double share, const std::string&)
-  { return observer.GoOn(PyramidShare * share, "Building the pyramid"); };
+  const auto progress = [&observer](double fraction, const std::string&)
+  { return observer.ReportProgress(PyramidFraction * fraction, "Building the pyramid"); };
   if (IsImage(request))
   {
-    progress(0.0, ""); // A request to stop is checked later.
+    progress(0.0, "");
   }
   const volumic::Volume volume = volumic::ReadVolume(request, progress);
   if (!volume.HintAtLabels.empty() && !std::exchange(this->HasHinted, true))
   {
-    observer.Warn(volumic::PlaceOfVoxels + volume.HintAtLabels);
+    observer.Warn(volumic::VoxelErrorPrefix + volume.HintAtLabels);
   }
   if (!volume.IsComplete())
   {
     return nullptr;
   }
   auto run = std::make_unique<volumic::SegmentationRun>(request, volume);
-  if (!volume.Voxels.AboutNaNs.empty())
+  if (!volume.Voxels.NaNWarning.empty())
   {
-    observer.Warn(volumic::PlaceOfVoxels + volume.Voxels.AboutNaNs);
+    observer.Warn(volumic::VoxelErrorPrefix + volume.Voxels.NaNWarning);
   }
   if (!volume.IsOfImage && volumic::AreReleased(&this->Filter, 0))
   {
@@ -154,7 +157,7 @@ void vtkDeformableSurface::vtkInternals::MakeEmptyLevels(
     vtkInformation* selection = this->Filter.GetInputArrayInformation(0);
     const bool areCells = this->Settings.OfImages &&
       selection->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_CELLS;
-    const vtkSmartPointer<vtkImageData> image = FrameOf(info, areCells);
+    const vtkSmartPointer<vtkImageData> image = ImageGeometry(info, areCells);
     const int* size = image->GetDimensions();
     volumic::PyramidOptions pyramid = this->Settings.Pyramid;
     try
@@ -168,9 +171,9 @@ void vtkDeformableSurface::vtkInternals::MakeEmptyLevels(
       count = static_cast<int>(
         volumic::PlanPyramid({ size[0], size[1], size[2] }, { 1.0, 1.0, 1.0 }, pyramid).size());
     }
-    catch (const volumic::Refusal&)
+    catch (const volumic::InvalidArgument&)
     {
-      finest = count = 0; // The first process reports it.
+      finest = count = 0; // The first process reports the error.
     }
   }
   volumic::MakeNullBlocks(
@@ -181,12 +184,12 @@ void vtkDeformableSurface::vtkInternals::MakeEmptyLevels(
 void vtkDeformableSurface::vtkInternals::Update(
   vtkInformationVector** inputs, vtkInformationVector* outputs, volumic::RunObserver& observer)
 {
-  volumic::SegmentationRequest request = this->RequestAsSet(inputs);
-  const bool wantsAllParts = request.Settings.WantsAllParts();
-  this->IsOnTheWay = false;
+  volumic::SegmentationRequest request = this->MakeRequest(inputs);
+  const bool warnsOfMissing = request.Settings.WarnsOfMissingParts();
+  this->IsBetweenLevels = false;
   if (this->TimeOfKept != this->Filter.GetMTime() ||
     this->InputsOfKept != volumic::InputTimesOf(&this->Filter) ||
-    (this->Kept && !this->Kept->GradesFor(request)))
+    (this->Kept && !this->Kept->HasGradingOf(request)))
   {
     this->ForgetRun();
   }
@@ -197,7 +200,7 @@ void vtkDeformableSurface::vtkInternals::Update(
   std::unique_ptr<volumic::SegmentationRun> run = std::move(this->Kept);
   if (!run || !run->Renew(request))
   {
-    run.reset(); // Not the levels of both at a time.
+    run.reset(); // Release its levels first.
     run = this->NewRun(request, observer);
   }
   if (!run)
@@ -207,22 +210,22 @@ void vtkDeformableSurface::vtkInternals::Update(
     nothing.FillOutputs(0, outputs);
     return;
   }
-  run->Run(observer, IsImage(request) ? PyramidShare : 0.0);
+  run->Run(observer, IsImage(request) ? PyramidFraction : 0.0);
   run->FillOutputs(outputs);
   const bool isFinest =
     run->EndsAt() <= this->Settings.LastLevel() && this->Settings.EdgeLength == 0.0;
   if (!request.IsStep || isFinest)
   {
-    observer.Warn(run->Warning(wantsAllParts));
+    observer.Warn(run->Warning(warnsOfMissing));
   }
-  this->IsOnTheWay = request.IsStep && !isFinest && !observer.IsStopped();
+  this->IsBetweenLevels = request.IsStep && !isFinest && !observer.IsStopped();
   if (volumic::MayKeepRun(&this->Filter))
   {
     this->TimeOfKept = this->Filter.GetMTime();
     this->InputsOfKept = volumic::InputTimesOf(&this->Filter);
-    if (!run->CanGoOn())
+    if (!run->CanResume())
     {
-      run->LetGo();
+      run->ReleaseRunData();
     }
     this->Kept = std::move(run);
   }

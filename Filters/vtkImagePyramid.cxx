@@ -3,7 +3,7 @@
 #include "vtkImagePyramid.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Host/Errors.h"
 #include "Host/LargeArrays.h"
@@ -38,7 +38,7 @@
 vtkStandardNewMacro(vtkImagePyramid);
 
 //------------------------------------------------------------------------------
-/** What the filter holds beside what all algorithms do. */
+/** Members of vtkImagePyramid. */
 class vtkImagePyramid::vtkInternals
 {
 public:
@@ -69,16 +69,16 @@ vtkMultiBlockDataSet* vtkImagePyramid::GetOutput(int port)
 }
 
 //------------------------------------------------------------------------------
-VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_DEPRECATED(vtkImagePyramid, MemoryLimit, int, VOLUMIC_MEMORY_LIMIT_WARNING)
 
-// The properties, a line each: name, type for Set and Get, and where vtkInternals has it.
-#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                    \
-  MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor)   \
-  MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)        \
-  MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)    \
-  MADE(SelectedComponent, int, SelectedComponent)                  \
-  MADE(NaNIsBackground, bool, Options.NaNIsBackground)             \
-  MADE(NumberOfThreads, int, Options.NumberOfThreads)              \
+// The properties: name, type of Set and Get, member of vtkInternals.
+#define VOLUMIC_PYRAMID_FILTER_PROPERTIES(MADE)                  \
+  MADE(ReductionFactor, double, Options.Pyramid.ReductionFactor) \
+  MADE(NumberOfLevels, int, Options.Pyramid.NumberOfLevels)      \
+  MADE(MinimumLevelSize, int, Options.Pyramid.MinimumLevelSize)  \
+  MADE(SelectedComponent, int, SelectedComponent)                \
+  MADE(NaNIsBackground, bool, Options.NaNIsBackground)           \
+  MADE(NumberOfThreads, int, Options.NumberOfThreads)            \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
 #define VolumicSetting(name, type, field) \
@@ -90,10 +90,11 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
 {
   try
   {
-    return static_cast<int>(volumic::PlanPyramid({ sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 },
-      this->Internals->Options.Pyramid).size());
+    return static_cast<int>(volumic::PlanPyramid(
+      { sizeX, sizeY, sizeZ }, { 1.0, 1.0, 1.0 }, this->Internals->Options.Pyramid)
+                              .size());
   }
-  catch (const volumic::Refusal&)
+  catch (const volumic::InvalidArgument&)
   {
     return 0;
   }
@@ -103,7 +104,7 @@ int vtkImagePyramid::CountLevels(int sizeX, int sizeY, int sizeZ) const
 vtkTypeBool vtkImagePyramid::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // vtkImageAlgorithm knows images only and leaves this request to others.
+  // vtkImageAlgorithm does not handle this request.
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
     return this->RequestDataObject(output);
@@ -124,7 +125,7 @@ int vtkImagePyramid::RequestDataObject(vtkInformationVector* output)
 
 int vtkImagePyramid::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -138,7 +139,7 @@ int vtkImagePyramid::FillOutputPortInformation(int, vtkInformation* info)
 int vtkImagePyramid::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  // What the executive copied from the input speaks of an image: blocks have no whole extent.
+  // The executive has copied this information from the input. Blocks have no whole extent.
   vtkInformation* info = output->GetInformationObject(0);
   info->Remove(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   info->Remove(vtkDataObject::ORIGIN());
@@ -159,19 +160,19 @@ volumic::ImageLevels vtkImagePyramid::MakeLevels(
 {
   const volumic::ScratchMemory scratch(this->Internals->ScratchDirectory);
   image = volumic::ImageOf(input);
-  const vtkSmartPointer<vtkDataArray> voxels = volumic::SelectComponent(
-    volumic::ChooseArray(this->GetInputArrayInformation(0), image),
-    this->Internals->SelectedComponent);
+  const vtkSmartPointer<vtkDataArray> voxels =
+    volumic::SelectComponent(volumic::ChooseArray(this->GetInputArrayInformation(0), image),
+      this->Internals->SelectedComponent);
   return volumic::MakeImageLevels(image, voxels, this->Internals->Options,
-    [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
+    [&observer](double fraction, const std::string& text)
+    { return observer.ReportProgress(fraction, text); });
 }
 
 //------------------------------------------------------------------------------
 void vtkImagePyramid::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output)
 {
   int extent[6] = { 0, -1, 0, -1, 0, -1 };
-  input->GetInformationObject(0)->Get(
-    vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+  input->GetInformationObject(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
   volumic::MakeNullBlocks(output,
     volumic::LevelNames(this->CountLevels(
       extent[1] - extent[0] + 1, extent[3] - extent[2] + 1, extent[5] - extent[4] + 1)));
@@ -193,8 +194,8 @@ int vtkImagePyramid::RequestData(
     this, outputVector, "Input port 0: ",
     [&]
     {
-      return volumic::Join("the memory does not suffice for the pyramid of an image of ",
-        image ? volumic::SizeOf(image) : "?", " voxels.");
+      return volumic::Join("not enough memory for the pyramid of an image of ",
+        image ? volumic::SizeOf(image) : "?", " voxels. Set Scratch Directory, or crop the image.");
     },
     [&]
     {
@@ -202,9 +203,9 @@ int vtkImagePyramid::RequestData(
       const volumic::ImageLevels levels =
         this->MakeLevels(volumic::WholeInput(inputVector[0]), image, observer);
       vtkMultiBlockDataSet::GetData(outputVector)->ShallowCopy(volumic::BlocksOf(levels));
-      if (!levels.AboutNaNs.empty())
+      if (!levels.NaNWarning.empty())
       {
-        observer.Warn("Input port 0: " + levels.AboutNaNs);
+        observer.Warn("Input port 0: " + levels.NaNWarning);
       }
     }));
   if (this->GetErrorCode() != vtkErrorCode::NoError &&
@@ -230,6 +231,6 @@ void vtkImagePyramid::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
-// Files may be compiled together.
+// The source files may be compiled as one (UNITY_BUILD).
 #undef VolumicSetting
 #undef VolumicPrint

@@ -2,78 +2,74 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkImagePyramid
- * @brief   images of one scene at decreasing resolutions, with any reduction factor under two
+ * @brief   compute an image pyramid with any reduction factor between 1 and 2
  *
  * vtkImagePyramid computes a pyramid from a 2D or 3D image. Each level is smoothed by a Gaussian
- * kernel of five voxels and has T times fewer voxels along each axis than the level below, with
- * 1 < T < 2. The default sqrt(3) is the factor by which vtkDeformableSurface subdivides its mesh.
- *
- * @par Input:
- * Port 0: a vtkImageData with point data, a composite dataset with one image, or a pyramid, whose
- * level 0 is used. SetInputArrayToProcess() chooses the array (default: active point scalars), of any
- * numeric type. Blanked voxels are background: points hidden by the ghost array
- * (vtkDataSetAttributes::HIDDENPOINT), or whose cells are all hidden (HIDDENCELL). Infinite voxels
- * are an error.
- *
- * @par Output:
- * Port 0: a vtkMultiBlockDataSet. Block h is the vtkImageData of level h, named `Level h`. Block 0
- * is the input, whose arrays are shared (of several components the array has the selected one).
- * All levels have the position of the first voxel, the direction and the real size of the input. The
- * spacing of level h is spacing * size / size of level h, and its extent starts at 0.
- *
- * Point data of each level from 1 on:
- * - one array with the name of the input's: double if that is double, or integers of 32 or 64 bits
- *   over 168 times as large as their range (10^9 to 10^9 + 50), else float
- *
- * Field data of each level:
- * - `Level` (int)
- * - `Unit` (double): U_h, the distance that one voxel represents at the level, world units
- *
- * Field data of the output:
- * - `StopReason` (string): `complete`, or `cancelled` after AbortExecute. The output then has the
- *   finished levels, and counts as up to date. Call Modified() to restart.
- * - `NaNVoxels` (vtkIdType): number of NaN voxels of level 0
- *
- * @par Algorithm:
- * Equations 3 to 5 of the paper: voxel i of level h lies at i times the level's spacing. The samples
- * of the kernel are U_h apart along each axis, also where voxels are longer, with U_h = T^h U_0
- * (eq. 4). Beyond the border the nearest voxel counts. Kernel and interpolation are one banded
- * operator per axis. Axes of one voxel stay one voxel. Voxels of coarser levels are the weighted
- * means of valid voxels, neither NaN nor blanked, and NaN where these have under half of the weight.
+ * kernel of five voxels and has T times fewer voxels along each axis than the next finer level. The
+ * default factor T = sqrt(3) is the factor by which vtkDeformableSurface subdivides its mesh.
  * Results are bit-identical for any number of threads.
  *
- * @par Processes:
- * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole image
- * and makes all levels. The others have the same blocks without images.
+ * @par Input:
+ * Port 0: a vtkImageData with point data, a composite dataset with one image, or a pyramid, of
+ * which the filter uses level 0. SetInputArrayToProcess() chooses the array (default: active point
+ * scalars), of any numeric type. Blanked voxels are background: points hidden by the ghost array
+ * (vtkDataSetAttributes::HIDDENPOINT), and points whose cells are all hidden (HIDDENCELL).
+ *
+ * @par Output:
+ * Port 0: a vtkMultiBlockDataSet. Block h, named `Level h`, is the vtkImageData of level h. Block 0
+ * is the input and shares its arrays. If the array has several components, block 0 has the selected
+ * one. All levels have the position of the first voxel, the direction and the physical size of the
+ * input. The extent of a level starts at 0.
+ * - Point data of each level from 1 on: an array with the name of the input array. It is double for
+ *   double input, and for integers that float cannot distinguish, such as 10^9 to 10^9 + 50. It is
+ *   float otherwise.
+ * - Field data of each level: `Level` (int), and `Unit` (double), the distance U_h in world units
+ *   that one voxel of the level represents.
+ * - Field data of the output: `StopReason` (string), `complete` or `cancelled`, and `NaNVoxels`
+ *   (vtkIdType), the number of NaN voxels of level 0.
+ *
+ * @par Algorithm:
+ * The filter implements equations 3 to 5 of the paper. Voxel i of level h lies at i times the
+ * level's spacing. The samples of the kernel are U_h = T^h U_0 apart along each axis, also if
+ * voxels are anisotropic. The image is extended by its nearest voxels. Axes of one voxel are not
+ * reduced. A voxel of a coarser level is the weighted mean of valid voxels, which are neither NaN
+ * nor blanked. It is NaN if valid voxels have less than half of the weight.
  *
  * @par Errors:
- * On error the filter invokes `ErrorEvent` with a message that names the port, array or value. The
- * output is empty. GetErrorCode() returns vtkErrorCode::UserError for an invalid input or property,
- * vtkErrorCode::UnknownError if memory does not suffice, and 0 after a good run. The pipeline itself
- * reports a missing input by `ErrorEvent` of GetExecutive(). Invalid are:
- * - an input that is not an image (apply vtkResampleToImage to other grids first), is empty, or has
+ * On error the filter invokes `ErrorEvent`, produces an empty output and sets GetErrorCode(): to
+ * vtkErrorCode::UserError for an invalid input or property, to vtkErrorCode::UnknownError if memory
+ * does not suffice. The executive reports a missing input. Errors are
+ * - an input that is not an image (use vtkResampleToImage for other grids), is empty, or has
  *   several images that are not a pyramid
  * - an array that does not exist, is cell data, is not numeric, or lacks the selected component
- * - infinite voxels, NaN voxels without NaNIsBackground, and no other voxels than NaN or blanked
+ * - infinite voxels, NaN voxels with NaNIsBackground off, and images without valid voxels
  * - a ReductionFactor outside 1 to 2, and more levels than the image can have
+ *
+ * @par Cancelling:
+ * After AbortExecute the output has the finished levels and counts as up to date. Call Modified()
+ * to restart.
+ *
+ * @par Processes:
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) requests the whole
+ * image and computes all levels. The others have null blocks.
  *
  * @par Thanks:
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996, section 4.
  *
  * @sa
- * vtkImageGaussianSmooth vtkImageResize
+ * vtkDeformableSurface vtkImageGaussianSmooth vtkImageResize
  */
 #ifndef vtkImagePyramid_h
 #define vtkImagePyramid_h
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkImageAlgorithm.h"
+#include "vtkVolumicPropertyMacros.h" // For volumicPropertyMacro
 
 #include <vtkSmartPointer.h>
 
-#include <memory> // For what is hidden
-#include <string>
+#include <memory> // For std::unique_ptr
 
 class vtkDataObject;
 class vtkImageData;
@@ -93,9 +89,9 @@ public:
 
   ///@{
   /**
-   * The pyramid. These hide vtkImageAlgorithm::GetOutput(), which is not virtual: it returns a
-   * vtkImageData, and would return null here, also in Python, as the output is none. Who calls it
-   * by a pointer to the superclass gets null; GetOutputDataObject(0) serves there.
+   * Return the pyramid. This method hides vtkImageAlgorithm::GetOutput(), which is not virtual and
+   * returns null, as the output is not a vtkImageData. Through a pointer to the superclass call
+   * GetOutputDataObject(0).
    */
   vtkMultiBlockDataSet* GetOutput();
   vtkMultiBlockDataSet* GetOutput(int port);
@@ -103,80 +99,40 @@ public:
 
   ///@{
   /**
-   * T: how many times fewer voxels a level has along each axis than the level below it. Between 1
-   * and 2, both excluded. Default: sqrt(3).
+   * Set/Get the reduction factor between consecutive levels along each axis, in (1, 2) (default:
+   * sqrt(3)).
    */
-  virtual void SetReductionFactor(double value);
-  virtual double GetReductionFactor();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(ReductionFactor, double);
+  /** Set/Get the number of levels, including the input (default 0: limited by MinimumLevelSize). */
+  volumicPropertyMacro(NumberOfLevels, int);
   /**
-   * Number of levels, level 0 (the input) included. 0, the default: as many as MinimumLevelSize
-   * allows.
+   * Set/Get the smallest number of voxels along an axis of a level, with NumberOfLevels 0 (default:
+   * 10). Level 0 may have fewer. Axes along which the input has one voxel do not count.
    */
-  virtual void SetNumberOfLevels(int value);
-  virtual int GetNumberOfLevels();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(MinimumLevelSize, int);
   /**
-   * With NumberOfLevels 0: no level after level 0 has an axis of fewer voxels than this. Axes
-   * along which the input has one voxel do not count. Default: 10.
+   * Set/Get the component of the voxels, from 0 (default -1: the magnitude of all components). An
+   * array of one component is not changed by -1 or 0.
    */
-  virtual void SetMinimumLevelSize(int value);
-  virtual int GetMinimumLevelSize();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(SelectedComponent, int);
+  /** Set/Get whether NaN voxels are background, with a warning (default: on). Off: an error. */
+  volumicBooleanPropertyMacro(NaNIsBackground);
   /**
-   * Which component of an array of several is taken: 0 for the first one; -1, the default: the
-   * magnitude. An array of one component is taken as it is with either.
+   * Set/Get the number of threads (default 0: all). Results do not depend on it. 0 means all
+   * processors of the process, limited by VTK_SMP_MAX_THREADS and vtkSMPTools::Initialize().
    */
-  virtual void SetSelectedComponent(int value);
-  virtual int GetSelectedComponent();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(NumberOfThreads, int);
+  /** Set/Get the directory for large arrays in memory-mapped files (default empty: in memory). */
+  volumicPropertyMacro(ScratchDirectory, const char*);
   /**
-   * Voxels that are NaN are background, and a warning tells how many there are. Off: they are
-   * refused. Default: on.
+   * Deprecated, without effect (default: 0). Set ScratchDirectory, and limit memory by the cgroup.
    */
-  virtual void SetNaNIsBackground(bool value);
-  virtual bool GetNaNIsBackground();
-  vtkBooleanMacro(NaNIsBackground, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Number of threads; 0, the default: as many as the process may have processors, or as the host
-   * says (VTK_SMP_MAX_THREADS, vtkSMPTools::Initialize). Results do not depend on it.
-   */
-  virtual void SetNumberOfThreads(int value);
-  virtual int GetNumberOfThreads();
-  ///@}
-
-  ///@{
-  /**
-   * Deprecated: has no effect. Set ScratchDirectory, and limit the memory of the process by its
-   * cgroup.
-   */
-  void SetMemoryLimit(int mebibytes);
-  int GetMemoryLimit();
-  ///@}
-
-  ///@{
-  /**
-   * Folder on a disk for large arrays, which are then mapped from files without a name; empty (the
-   * default): arrays lie in memory. Results do not depend on it.
-   */
-  void SetScratchDirectory(const char* directory);
-  const char* GetScratchDirectory();
+  volumicPropertyMacro(MemoryLimit, int);
   ///@}
 
   /**
-   * How many levels the pyramid of an image of so many voxels has, with these settings; 0 where
-   * they don't go together, which Update() tells by an error.
+   * Return the number of levels of an image of this size in voxels with these settings. Return 0 if
+   * the settings are invalid for it, which Update() reports as an error.
    */
   int CountLevels(int sizeX, int sizeY, int sizeZ) const;
 
@@ -202,10 +158,10 @@ private:
 
   int RequestDataObject(vtkInformationVector* output);
 
-  /// @param image gets the image, once it is there
-  volumic::ImageLevels MakeLevels(vtkDataObject* input, vtkSmartPointer<vtkImageData>& image,
-    volumic::RunObserver& observer);
-  /// Blocks without images: parallel writers need the same blocks in all processes.
+  /// Compute the levels. @param image set to the input image, also if an exception follows
+  volumic::ImageLevels MakeLevels(
+    vtkDataObject* input, vtkSmartPointer<vtkImageData>& image, volumic::RunObserver& observer);
+  /// Make null blocks. Parallel writers need the same blocks in all processes.
   void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
 
   class vtkInternals;

@@ -22,13 +22,12 @@
 #include <vtkStringArray.h>
 #include <vtkTable.h>
 
-
 vtkStandardNewMacro(vtkLabelTable);
 
 //------------------------------------------------------------------------------
 int vtkLabelTable::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -71,19 +70,20 @@ int vtkLabelTable::RequestData(
     vtkDataObject* input = volumic::WholeInput(inputVector[0]);
     volumic::HostThreads threads(0);
     volumic::LabelImage image(input, this->GetInputArrayInformation(0), 0, threads);
-    auto known = volumic::LabelNames::Of(volumic::ImageOf(input));
-    known.Complete({ image.RenumberedLabels(), {} });
+    auto labelNames = volumic::LabelNames::Of(volumic::ImageOf(input));
+    labelNames.Complete({ image.RenumberedLabels(), {} });
     image.CheckNumberOfLabels();
     for (const auto& entry : image.Labels())
     {
       labels->InsertNextValue(entry.first);
-      names->InsertNextValue(known.NameOf(entry.first));
+      names->InsertNextValue(labelNames.NameOf(entry.first));
       voxels->InsertNextValue(entry.second.Count);
       extents->InsertNextTypedTuple(entry.second.Extent.data());
-      colors->InsertNextTuple(known.ColorOf(entry.first).data());
+      colors->InsertNextTuple(labelNames.ColorOf(entry.first).data());
     }
   };
   this->SetErrorCode(volumic::RunAlgorithm(
-    this, outputVector, "Input port 0: ", [] { return "the memory does not suffice for the labels."; }, work));
+    this, outputVector,
+    "Input port 0: ", [] { return "not enough memory for the labels. Crop the image."; }, work));
   return 1;
 }

@@ -2,22 +2,26 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkLabelTable
- * @brief   which labels a label map has
+ * @brief   list the labels of a label map
  *
- * vtkLabelTable lists the labels of an image, for those who choose some of them for
- * vtkLabelsToSurfaces.
+ * vtkLabelTable lists the labels of an image with names, sizes, extents and colors.
  *
  * @par Input:
- * Port 0: as vtkLabelsToSurfaces.
+ * Port 0: a label map, as for vtkLabelsToSurfaces.
  *
  * @par Output:
- * A vtkTable with a row per label, in the order of their values: `Label` (int), `Name` (string: the
- * one that comes with the image, or `Label 3`), `Voxels` (vtkIdType), `Extent` (int, 6 components:
- * indices of its first and last voxels along x, y and z, as an extent of the image), `Color`
- * (double, 3 components, 0 to 1: that which comes with the image, or one of a fixed palette).
+ * Port 0: a vtkTable with a row per label, sorted by label, and the columns
+ * - `Label` (int)
+ * - `Name` (string): the name in the image, or `Label 3`
+ * - `Voxels` (vtkIdType): number of voxels
+ * - `Extent` (int, 6): indices of the first and last voxels along x, y and z
+ * - `Color` (double, 3, 0 to 1): the color in the image, or a color of a fixed palette
  *
  * @par Errors:
- * As vtkLabelsToSurfaces.
+ * On error the filter invokes `ErrorEvent`, produces an empty table and sets GetErrorCode().
+ *
+ * @par Processes:
+ * In a parallel run the processes other than the first (piece 0) have an empty table.
  *
  * @sa
  * vtkLabelsToSurfaces

@@ -3,14 +3,14 @@
 #include "vtkLabelsToSurfaces.h"
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 #include "Host/HostThreads.h"
 #include "Host/LargeArrays.h"
 #include "Host/Pipeline.h"
 #include "Host/RunObserver.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputImage.h"
-#include "Input/Workspace.h"
 #include "Labels/LabelBlocks.h"
 #include "Labels/LabelImage.h"
 #include "Labels/LabelInterfaces.h"
@@ -52,12 +52,12 @@ public:
   bool SharedInterfaces = true; ///< has no effect
   unsigned NumberOfThreads = 0;
   double TimeLimit = 0.0; ///< seconds; 0: none
-  int MemoryLimit = 0; ///< has no effect
+  int MemoryLimit = 0;    ///< has no effect
   std::string ScratchDirectory;
   volumic::LabelNames Names;
   bool IsRunning = false;
 
-  /** Choose the labels, and check the properties. Errors are thrown. */
+  /** Choose the labels, and check the properties. Throw an exception on error. */
   volumic::LabelChoice Read(vtkDataObject* input, vtkInformation* selection,
     std::optional<volumic::LabelImage>& image, volumic::HostThreads& threads) const;
 };
@@ -73,8 +73,8 @@ vtkLabelsToSurfaces::vtkLabelsToSurfaces() : Internals(std::make_unique<vtkInter
 vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
 
 //------------------------------------------------------------------------------
-// The properties, a line each: name, type for Set and Get, where vtkInternals has it. Set, Get
-// and PrintSelf() are made of them.
+// The properties: name, type of Set and Get, member of vtkInternals. Set, Get and PrintSelf() are
+// generated from them.
 #define VOLUMIC_LABEL_PROPERTIES(MADE)                                  \
   MADE(BackgroundLabel, int, BackgroundLabel)                           \
   MADE(Merge, bool, Merge)                                              \
@@ -94,11 +94,11 @@ vtkLabelsToSurfaces::~vtkLabelsToSurfaces() = default;
   MADE(NumberOfThreads, int, NumberOfThreads)                           \
   MADE(ScratchDirectory, const char*, ScratchDirectory)
 
-#define VolumicSetting(name, type, field)                                                          \
+#define VolumicSetting(name, type, field) \
   VOLUMIC_SET_AND_GET(vtkLabelsToSurfaces, name, type, Internals->field, this->Modified())
 VOLUMIC_LABEL_PROPERTIES(VolumicSetting)
 
-VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_ABOUT_MEMORY)
+VOLUMIC_DEPRECATED(vtkLabelsToSurfaces, MemoryLimit, int, VOLUMIC_MEMORY_LIMIT_WARNING)
 
 //------------------------------------------------------------------------------
 void vtkLabelsToSurfaces::AddLabel(int label)
@@ -175,7 +175,7 @@ void vtkLabelsToSurfaces::SetAbortExecute(vtkTypeBool abort)
 //------------------------------------------------------------------------------
 int vtkLabelsToSurfaces::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -195,7 +195,7 @@ vtkPolyData* vtkLabelsToSurfaces::GetInterfaces()
 int vtkLabelsToSurfaces::RequestUpdateExtent(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
-  // Of the voxels all processes make the names of the blocks.
+  // All processes need the voxels for the names of the blocks.
   volumic::RequestInputs(this, request, input, output, true);
   return 1;
 }
@@ -229,23 +229,24 @@ void vtkLabelsToSurfaces::MakeSurfaces(
   auto* interfaces = vtkPolyData::GetData(outputs, 1);
   const vtkInternals& internals = *this->Internals;
   const volumic::ScratchMemory scratch(internals.ScratchDirectory);
-  observer.GoOn(0.0, "Reading the labels");
+  observer.ReportProgress(0.0, "Reading the labels");
   volumic::HostThreads threads(internals.NumberOfThreads);
   std::optional<volumic::LabelImage> image;
   const volumic::LabelChoice choice =
     internals.Read(input, this->GetInputArrayInformation(0), image, threads);
-  const std::string aboutScans = image->ScanWarning(internals.BackgroundLabel);
-  if (!aboutScans.empty()) // Now: the mesh may take very long.
+  const std::string scanWarning = image->ScanWarning(internals.BackgroundLabel);
+  if (!scanWarning.empty()) // Report it before meshing, which may take very long.
   {
-    vtkWarningMacro("Input port 0: " << aboutScans);
+    vtkWarningMacro("Input port 0: " << scanWarning);
   }
   std::vector<int> objects;
-  volumic::LabelMap map = image->MakeMap(
-    choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
+  volumic::LabelMap map =
+    image->MakeMap(choice.Labels, choice.IsMerged, internals.BackgroundLabel, objects, threads);
   volumic::LabelInterfaceMaker maker(
     std::move(map), objects, image->Image(), internals.Settings, threads);
   maker.Make(threads,
-    [&observer](double share, const std::string& text) { return observer.GoOn(share, text); });
+    [&observer](double fraction, const std::string& text)
+    { return observer.ReportProgress(fraction, text); });
   interfaces->ShallowCopy(maker.Interfaces(choice.FirstLabels(), internals.BackgroundLabel));
   volumic::AddLabelFields(choice, *image, interfaces);
   if (choice.IsMerged)
@@ -257,8 +258,8 @@ void vtkLabelsToSurfaces::MakeSurfaces(
     image->FindNearest(interfaces, choice.Labels, nearest);
     sides->CopyComponent(0, nearest, 0);
   }
-  observer.Warn(volumic::FillBlocks(choice, *image, internals.Settings, maker.Surfaces(threads),
-    output, observer.StopReason()));
+  observer.Warn(volumic::FillBlocks(
+    choice, *image, internals.Settings, maker.Surfaces(threads), output, observer.StopReason()));
   if (!image->Warning().empty())
   {
     observer.Warn("Input port 0: " + image->Warning());
@@ -278,7 +279,7 @@ void vtkLabelsToSurfaces::MakeEmptyBlocks(vtkInformationVector* input, vtkMultiB
   }
   catch (const std::exception&)
   {
-    output->Initialize(); // The first process reports it, and has no blocks either.
+    output->Initialize(); // The first process reports the error, and has no blocks either.
   }
 }
 
@@ -299,8 +300,8 @@ int vtkLabelsToSurfaces::RequestData(
     this, outputVector, "",
     []
     {
-      return "Input port 0: the memory does not suffice for the surfaces. Set Scratch Directory, set "
-             "Finest Level to a coarser level, or choose fewer Labels.";
+      return "Input port 0: not enough memory for the surfaces. Set Scratch Directory, set Finest "
+             "Level to a coarser level, or crop the image.";
     },
     [&]
     {
@@ -333,13 +334,13 @@ void vtkLabelsToSurfaces::PrintSelf(ostream& os, vtkIndent indent)
     os << " " << label;
   }
   os << endl;
-#define VolumicPrint(name, type, field)                                                            \
-  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field);                       \
+#define VolumicPrint(name, type, field)                                      \
+  volumic::PrintSetting(os << indent << #name ": ", this->Internals->field); \
   os << endl;
   VOLUMIC_LABEL_PROPERTIES(VolumicPrint)
   os << indent << "MemoryLimit: " << this->Internals->MemoryLimit << endl;
 }
 
-// Files may be compiled together.
+// The source files may be compiled as one (UNITY_BUILD).
 #undef VolumicSetting
 #undef VolumicPrint

@@ -2,107 +2,111 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkLabelsToSurfaces
- * @brief   one conforming mesh of all labels of a label map, and a closed surface of each
+ * @brief   mesh all labels of a label map conformingly, with a closed surface per label
  *
- * vtkLabelsToSurfaces meshes a segmented image, whose voxels are numbers of objects (labels). The
- * mesh has exactly the topology of the voxels, see Connectivity. It is conforming: neighbouring
- * labels share the triangles between them. It has no intersections, and the block of each label is
- * closed and manifold. No part of a label is lost, and no labels are joined that do not touch.
- * Surfaces are smooth, have well-shaped triangles, and enclose the volume of the voxels.
+ * vtkLabelsToSurfaces meshes a segmented image, whose voxels are integer labels. The mesh has
+ * exactly the topology of the voxels, see Connectivity. It is conforming: adjacent labels share the
+ * triangles between them. It is free of self-intersections, and the block of each label is closed
+ * and manifold. Surfaces are smooth and enclose the volume of the voxels. Results are bit-identical
+ * for any number of threads.
  *
  * @par Input:
- * Port 0: a vtkImageData with integers of any type, of one component, as point data (voxels are
- * points) or cell data (voxels are cells), chosen by SetInputArrayToProcess(), by default the
- * active scalars. The filter rounds floating-point numbers within a hundredth of integers, takes
- * NaN as background, and renumbers labels that no int holds, each with a warning. It also accepts a
- * composite dataset with one image. Names and colours of labels may come as arrays of the image's
- * field data: `LabelValues` (integers) and, with an entry for each of these, `LabelNames` (strings)
- * and `LabelColors` (3 components, 0 to 1; as unsigned char 0 to 255).
+ * Port 0: a vtkImageData, or a composite dataset with one image. SetInputArrayToProcess() chooses
+ * the array (default: active scalars): integers of any type, of one component. Point data (voxels
+ * are points) and cell data (voxels are cells) are accepted.
+ * - Floating-point numbers within 0.01 of integers are rounded, with a warning.
+ * - NaN is background, with a warning.
+ * - Labels outside the range of int are renumbered, with a warning.
+ * - Field data may give names and colors: `LabelValues` (integers) and, with an entry for each
+ *   value, `LabelNames` (strings) and `LabelColors` (3 components, 0 to 1, or unsigned char 0 to
+ *   255).
  *
  * @par Output:
- * World coordinates. Port 0: a vtkMultiBlockDataSet with a block (vtkPolyData) per label, in the
- * order of the labels' values, named by the label's name, or `Label 3`; with Merge one block, named
- * `Labels 1, 3`. A label without a surface has an empty block.
+ * World coordinates.
+ * - Port 0: a vtkMultiBlockDataSet with a vtkPolyData per label, sorted by label. A block is named
+ *   by the label's name, or `Label 3`. With Merge there is one block, named `Labels 1, 3`. A label
+ *   without a surface has an empty block.
+ * - Port 1, `Interfaces`: a vtkPolyData with each triangle once. Its cells are the segments of
+ *   junction lines, where three or more labels meet (including background), then the triangles.
  *
- * Arrays and field data of each block as of vtkDeformableSurface, and:
- * - cell data `Label` (int): with Merge, that of the nearest voxel of the merged ones
- * - point data `GlobalIds` (vtkIdType): the point of port 1
- *
+ * @par Arrays of blocks:
+ * The arrays and field data of vtkDeformableSurface, and
+ * - cell data `Label` (int): the label, with Merge the label of the nearest merged voxel
+ * - point data `GlobalIds` (vtkIdType): index of the point at port 1
+ * - field data with an entry for the label, or for each merged label: `Label` (int), `LabelName`
+ *   (string), `LabelColor` (double, 3, 0 to 1), `LabelVoxels` (vtkIdType)
+ * - field data `WrongVoxels` (vtkIdType): number of misclassified voxels. Their centers are voxels
+ *   of the label outside the surface, or other voxels inside it.
+ * - field data `MissedVoxels` (vtkIdType): number of misclassified voxels that are farther from the
+ *   surface than VoxelTolerance plus Tolerance
+ * - field data `VolumeError` (double): enclosed volume divided by the volume of the voxels, minus 1
+ * - field data `Parts` (vtkIdType): number of parts of the label, which are voxels joined by faces,
+ *   edges or corners. Each part keeps its volume. With periodic BoxFaces the label as a whole does.
+ * - field data `WrongParts` (vtkIdType): number of parts whose volume differs by more than a
+ *   quarter
+ * @par
  * `GlobalIds`, `Residual`, `Motionless`, `Contact` and the cell arrays of components have
- * vtkAbstractArray::GUI_HIDE(): ParaView does not offer them.
+ * vtkAbstractArray::GUI_HIDE().
  *
- * and field data, with an entry for the label, with Merge for each merged one:
- * - `Label` (int), `LabelName` (string)
- * - `LabelColor` (double, 3 components, 0 to 1): as given, or one of a fixed palette
- * - `LabelVoxels` (vtkIdType): voxels of the label
- * - `WrongVoxels` (vtkIdType): misclassified voxels: centres of the label's voxels outside, of
- *   others inside
- * - `MissedVoxels` (vtkIdType): those of them that are further from the surface than VoxelTolerance
- *   and Tolerance together
- * - `VolumeError` (double): enclosed volume over the voxels' volume, less 1
- * - `Parts` (vtkIdType): parts of the label, voxels joined by faces, edges or corners, each of which
- *   is to keep its volume; with periodic BoxFaces the label as a whole is
- * - `WrongParts` (vtkIdType): those whose enclosed volume is off by more than a quarter
+ * @par Arrays of the interfaces:
+ * - cell data `BoundaryLabels` (int, 2, as in vtkSurfaceNets3D): the label behind a triangle, and
+ *   the label in front of it, to which its normal points. BackgroundLabel stands for labels that
+ *   are not selected. Lines have it twice. With Merge the label behind is that of the nearest
+ *   voxel.
+ * - cell data `BoxFace` (unsigned char, also of blocks), with flat or periodic BoxFaces: the image
+ *   side that the triangle lies in, 1 x-min, 2 x-max, 3 y-min, 4 y-max, 5 z-min, 6 z-max, 0 none
+ * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 at line ends
+ * - point data `EdgeSize` (float, world units): requested edge length, with Tolerance
+ * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: an entry for each label
+ * - field data `WorstAngle` (double, degrees), `WorstAnglePosition` (double, 3): the smallest angle
+ *   between two interfaces at a junction line, and its position
+ * - field data `SmallContacts` (int): number of contacts of two labels that are a single triangle
  *
- * Field data of the whole, only where there is anything to report:
- * - `LostLabels` (string): labels without a surface, labels with more than half of their voxels
- *   missed, labels of 100 voxels or more whose VolumeError exceeds .03, and labels with WrongParts.
- *   It is a warning, too, where the first three are more than 5 % of the labels' voxels.
- *
- * Port 1, `Interfaces`: a vtkPolyData, each triangle once. Its cells are the segments of junction
- * lines, where three labels or more meet (background is one of them), then the triangles.
- * - cell data `BoundaryLabels` (int, 2 components, as of vtkSurfaceNets3D): the label behind a
- *   triangle, and the label that its normal points to. BackgroundLabel stands for all that is not
- *   selected; a line has it twice. With Merge the label behind is that of the nearest voxel.
- * - cell data `BoxFace` (unsigned char), with flat BoxFaces, of blocks, too: the side of the image
- *   that a triangle lies in, 1 x-min, 2 x-max, 3 y-min, 4 y-max, 5 z-min, 6 z-max; 0: none
- * - point data `Junction` (unsigned char): 0 on an interface, 1 on a junction line, 2 where lines
- *   meet or end
- * - point data `EdgeSize` (float): with Tolerance, the requested edge length
- * - field data `Label`, `LabelName`, `LabelColor`, `LabelVoxels`: with an entry for each label
- * - field data `WorstAngle` (double, degrees), `WorstAnglePosition` (double, 3 components): the
- *   least angle between two interfaces about a junction line, and its position; only with lines
- * - field data `SmallContacts` (int): triangles with junction lines on all sides, by one of which
- *   alone two labels touch; only with lines
+ * @par Field data of port 0:
+ * - `LostLabels` (string), only if labels are not represented well. It names labels without a
+ *   surface, labels with more than half of their voxels missed, labels of at least 100 voxels with
+ *   a VolumeError of more than 0.03, and labels with WrongParts. The filter also warns if labels of
+ *   the first three kinds have more than 5 % of the labels' voxels.
  *
  * @par Connectivity:
- * A label holds together through the faces of voxels. Through an edge of a voxel it holds together
- * if its two voxels are opposite there, and the other two are of two different labels, or both of
- * one label of later rank. Ranks: fewest voxels first, then the lower number; background last.
- * Through a corner it does not hold together, except in one pattern: four labels, each with two
- * opposite voxels of the eight; there the first in rank does.
+ * Labels are ranked: fewest voxels first, then the lower number. Background is last. Voxels of a
+ * label are connected
+ * - through their faces
+ * - through an edge with two opposite voxels of the label, if the other two voxels have two
+ *   different labels, or both have a label of later rank
+ * - through a corner only if each of four labels has two opposite voxels of the eight, and the
+ *   label is the first of the four in rank
  *
  * @par Selection:
- * The mesh is made of all labels of the map, whichever are selected: the surface of a label is
- * bit-identical for any selection. Exceptions: Merge unites labels before meshing, KeepComponents
- * changes voxels of the selected labels, and BackgroundLabel, if selected, is a label. Time and
+ * The filter meshes all labels of the map. The surface of a label is bit-identical for any
+ * selection of labels. Exceptions: Merge unites labels before meshing, KeepComponents changes
+ * voxels of the selected labels, and a selected BackgroundLabel is meshed as a label. Time and
  * memory grow with the interfaces of all labels.
  *
  * @par Errors:
- * As vtkDeformableSurface: on error the filter invokes `ErrorEvent`, produces empty outputs and
- * sets GetErrorCode(). A map looks like a scan if it has more than 256 labels and more than a third
- * of the neighbouring voxels along x differ. The filter warns of it before meshing begins.
+ * On error the filter invokes `ErrorEvent`, produces empty outputs and sets GetErrorCode(), as
+ * vtkDeformableSurface. It warns before meshing if the map looks like a scan: if it has more than
+ * 256 labels, and more than a third of the neighboring voxels along x differ.
  *
  * @par Cancelling:
- * The filter tests AbortExecute several times a second. It then outputs the mesh as it is, whose
- * blocks have `StopReason` `cancelled`, or, before there is a mesh, empty blocks with that reason.
- * TimeLimit ends a run in the same way. The next run starts anew.
+ * The filter tests AbortExecute several times a second. It then outputs the current mesh with
+ * `StopReason` `cancelled`, or empty blocks if there is no mesh yet. The next run restarts.
  *
  * @par Processes:
- * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) makes all surfaces. The
- * others read the whole label map, too, and have the same blocks without surfaces. The first process
- * reports errors.
+ * In a parallel run, as in pvserver and pvbatch, the first process (piece 0) computes all surfaces
+ * and reports errors. The others read the whole label map, too, and have null blocks.
  *
  * @sa
- * vtkVolumeToSurface vtkLabelTable
+ * vtkVolumeToSurface vtkLabelTable vtkSurfaceNets3D
  */
 #ifndef vtkLabelsToSurfaces_h
 #define vtkLabelsToSurfaces_h
 
 #include "vtkFiltersVolumicModule.h" // For export macro
 #include "vtkMultiBlockDataSetAlgorithm.h"
+#include "vtkVolumicPropertyMacros.h" // For volumicPropertyMacro
 
-#include <memory> // For what is hidden
+#include <memory> // For std::unique_ptr
 
 class vtkDataObject;
 class vtkMultiBlockDataSet;
@@ -119,13 +123,13 @@ public:
   vtkTypeMacro(vtkLabelsToSurfaces, vtkMultiBlockDataSetAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// As vtkDeformableSurface::MetricType.
+  /// Space in which edge lengths are uniform, as in vtkDeformableSurface.
   enum MetricType
   {
     Voxels = 0,
     World = 1
   };
-
+  /// Shape of surfaces at the border of the image.
   enum BoxFacesType
   {
     Rounded = 0,
@@ -135,184 +139,133 @@ public:
 
   ///@{
   /**
-   * Labels that get a surface; none, the default: all labels of the image except BackgroundLabel.
-   * The filter reports an error for a label that the image does not have. Order and repetitions
-   * have no effect. GetLabel() returns BackgroundLabel if the index is out of range.
+   * Add a label that gets a surface. Without any, all labels except BackgroundLabel get one. It is
+   * an error if the image does not have the label. Order and repetitions have no effect.
    */
   void AddLabel(int label);
+  /** Remove all selected labels. */
   void ClearLabels();
+  /** Return the number of selected labels. */
   int GetNumberOfLabels();
+  /** Return a selected label, or BackgroundLabel if the index is out of range. */
   int GetLabel(int index);
+  /** Set/Get the label that denotes background (default: 0). It gets a surface only if selected. */
+  volumicPropertyMacro(BackgroundLabel, int);
+  /**
+   * Set/Get whether the selected labels are united into one surface before meshing (default: off).
+   */
+  volumicBooleanPropertyMacro(Merge);
   ///@}
 
   ///@{
   /**
-   * Label that denotes background; no surface is generated for it unless it is one of Labels.
-   * Default: 0.
+   * Set/Get the standard deviation of the Gaussian that smooths the labels in smallest voxel
+   * spacings, 0 to 10 (default: 2). The unit is 5/8 of the largest spacing if that is more. The
+   * length is the same along all axes. 0 leaves voxel steps. Topology and volumes do not depend on
+   * it. More than 3 changes little unless boundaries are rough.
    */
-  void SetBackgroundLabel(int label);
-  int GetBackgroundLabel();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(Smoothing, double);
   /**
-   * Unite Labels before meshing, into one surface. Default: off.
+   * Set/Get the allowed distance of a misclassified voxel center from the surface in smallest voxel
+   * spacings, at most 1 (default -1: automatic). Automatic: a quarter of Smoothing, at most 1. 0.5
+   * smooths the steps of noise and resampling. 0 constrains all centers as far as triangles can.
    */
-  void SetMerge(bool merge);
-  bool GetMerge();
-  vtkBooleanMacro(Merge, bool);
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(VoxelTolerance, double);
   /**
-   * Standard deviation of the Gaussian that smooths the labels, the same length along all axes, in
-   * smallest voxel spacings, or, where that is more, in 5/8 of the largest. 0: none, stairs stay.
-   * At most 10. Topology and volumes do not depend on it. More than 3 changes little unless
-   * boundaries are rough. Default: 2.
+   * Set/Get the shape of surfaces at the border of the image (default: Rounded).
+   * - Rounded: closed as elsewhere, about half a voxel beyond the outermost centers
+   * - Flat: exactly in the planes half a voxel beyond the outermost centers, see `BoxFace`. Edges
+   *   of the box and boundary loops of its faces are junction lines, and corners have `Junction` 2.
+   * - Periodic: flat, and opposite sides have the same triangles with bit-identical coordinates.
+   *   The image is one period. It is an error if labels do not continue on the other side.
    */
-  void SetSmoothing(double voxels);
-  double GetSmoothing();
-  ///@}
-
-  ///@{
-  /**
-   * Distance by which the centre of a voxel may be on the wrong side of the surface, in smallest
-   * voxel spacings, at most 1. With .5 the steps that noise and resampling leave become
-   * smooth. With 0 no centre is, as far as triangles can. -1, the default: a quarter of Smoothing,
-   * at most 1.
-   */
-  void SetVoxelTolerance(double voxels);
-  double GetVoxelTolerance();
-  ///@}
-
-  ///@{
-  /**
-   * Has no effect: labels always share their interfaces. It leaves with the next release.
-   * Default: on.
-   */
-  void SetSharedInterfaces(bool shared);
-  bool GetSharedInterfaces();
-  vtkBooleanMacro(SharedInterfaces, bool);
-  ///@}
-
-  ///@{
-  /**
-   * Shape of surfaces where labels reach the border of the image. Rounded, the default: closed as
-   * elsewhere, about half a voxel beyond the outermost centres. Flat: exactly in the planes there.
-   * Cell data `BoxFace` gives the plane, edges of the box and boundary loops of its faces are lines
-   * of the interfaces, and corners are points of Junction 2. Periodic: flat, and opposite sides
-   * have the same triangles, with bit-identical coordinates. The image is then one period of a map,
-   * and the filter reports an error if labels do not continue on the other side.
-   */
-  void SetBoxFaces(int value);
-  int GetBoxFaces();
+  volumicPropertyMacro(BoxFaces, int);
   void SetBoxFacesToRounded() { this->SetBoxFaces(Rounded); }
   void SetBoxFacesToFlat() { this->SetBoxFaces(Flat); }
   void SetBoxFacesToPeriodic() { this->SetBoxFaces(Periodic); }
   ///@}
 
   ///@{
-  /** As vtkDeformableSurface. Default: World. */
-  void SetMetric(int value);
-  int GetMetric();
+  /**
+   * Set/Get the space in which edge lengths are uniform, as in vtkDeformableSurface (default:
+   * World).
+   */
+  volumicPropertyMacro(Metric, int);
   void SetMetricToVoxels() { this->SetMetric(Voxels); }
   void SetMetricToWorld() { this->SetMetric(World); }
-  ///@}
-
-  ///@{
-  /** As vtkDeformableSurface: mean length of edges, world units; 0, the default: by FinestLevel. */
-  void SetEdgeLength(double length);
-  double GetEdgeLength();
+  /** Set/Get the mean edge length in world units (default 0: from FinestLevel). */
+  volumicPropertyMacro(EdgeLength, double);
+  /**
+   * Set/Get the edge length relative to the voxels if EdgeLength is 0 (default: 0). Level 0 has
+   * triangles as large as voxels. Each further level has sqrt(3) times longer edges, level -1
+   * sqrt(3) times shorter ones.
+   */
+  volumicPropertyMacro(FinestLevel, int);
+  /**
+   * Set/Get the largest distance of longer edges' faces from the interfaces in world units (default
+   * 0: uniform edges). Volumes remain those of the voxels. Junction lines move by at most this
+   * distance.
+   */
+  volumicPropertyMacro(Tolerance, double);
+  /** Set/Get the maximum edge length with Tolerance in world units (default 0: automatic). */
+  volumicPropertyMacro(MaximumEdgeLength, double);
+  /**
+   * Set/Get the growth of the edge length per distance with Tolerance, in (0, 0.3] (default: 0.2).
+   */
+  volumicPropertyMacro(Gradation, double);
   ///@}
 
   ///@{
   /**
-   * As vtkDeformableSurface: graded triangles, world units. Volumes remain those of the voxels, and
-   * junction lines are straightened by at most the tolerance. Defaults: 0 (none), 0 and 0.2.
+   * Set/Get the components of each selected label to keep (default: 0, AllComponents). Other values
+   * are LargestComponent (1) and LargeComponents (3), of at least MinimumComponentVolume, as in
+   * vtkDeformableSurface. Components are voxels joined by faces, edges or corners. Voxels of
+   * removed components become part of the neighbor that has most of their faces.
    */
-  void SetTolerance(double value);
-  double GetTolerance();
-  void SetMaximumEdgeLength(double value);
-  double GetMaximumEdgeLength();
-  void SetGradation(double value);
-  double GetGradation();
+  volumicPropertyMacro(KeepComponents, int);
+  /** Set/Get the minimum volume of LargeComponents in world units cubed (default: 0). */
+  volumicPropertyMacro(MinimumComponentVolume, double);
   ///@}
 
   ///@{
   /**
-   * Edge length, if EdgeLength is 0, as of vtkDeformableSurface. 0, the default: as for voxels; 1,
-   * 2, ...: each sqrt(3) times longer; -1: sqrt(3) times shorter.
+   * Set/Get the maximum time in seconds from the start of RequestData() (default 0: none). Then the
+   * run ends as a cancelled one, but with `StopReason` `time limit`.
    */
-  void SetFinestLevel(int level);
-  int GetFinestLevel();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(TimeLimit, double);
+  /** Set/Get the number of threads, as in vtkImagePyramid (default 0: all). */
+  volumicPropertyMacro(NumberOfThreads, int);
+  /** Set/Get the directory for large arrays in memory-mapped files (default empty: in memory). */
+  volumicPropertyMacro(ScratchDirectory, const char*);
   /**
-   * As vtkDeformableSurface, for each selected label: AllComponents (0, the default),
-   * LargestComponent (1) or LargeComponents (3), of at least MinimumComponentVolume. Components are
-   * those of voxels joined by faces, edges or corners. Voxels left out become part of the neighbour
-   * that has most of their faces.
+   * Deprecated, without effect (default: 0). Set ScratchDirectory, and limit memory by the cgroup.
    */
-  void SetKeepComponents(int value);
-  int GetKeepComponents();
-  ///@}
-
-  ///@{
-  /** As vtkDeformableSurface, world units cubed. Default: 0. */
-  void SetMinimumComponentVolume(double volume);
-  double GetMinimumComponentVolume();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(MemoryLimit, int);
   /**
-   * Seconds after the start of RequestData() at which a run ends as a cancelled one does, but with
-   * the `StopReason` `time limit`; 0, the default: none.
+   * Deprecated, without effect (default: on): interfaces are always shared. It will be removed in
+   * the next release.
    */
-  void SetTimeLimit(double seconds);
-  double GetTimeLimit();
+  volumicBooleanPropertyMacro(SharedInterfaces);
   ///@}
 
   ///@{
-  /** As vtkDeformableSurface: 0, the default: all. */
-  void SetNumberOfThreads(int number);
-  int GetNumberOfThreads();
-  ///@}
-
-  ///@{
-  /** Deprecated, as vtkDeformableSurface::SetMemoryLimit(): has no effect. */
-  void SetMemoryLimit(int mebibytes);
-  int GetMemoryLimit();
-  ///@}
-
-  ///@{
-  /** As vtkDeformableSurface: folder on a disk for large arrays; empty (the default): none. */
-  void SetScratchDirectory(const char* directory);
-  const char* GetScratchDirectory();
-  ///@}
-
-  ///@{
-  /**
-   * The name of a label, for its block; empty: none. It goes before one that comes with the image.
-   */
+  /** Set the name of a label, for its block. It overrides the name in the image. Empty: none. */
   void SetLabelName(int label, const char* name);
+  /** Return the name that SetLabelName() has set, or an empty string. */
   const char* GetLabelName(int label);
+  /** Remove all names. */
   void ClearLabelNames();
-  ///@}
-
-  ///@{
-  /**
-   * The colour of a label, 0 to 1, for `LabelColor`. It goes before one that comes with the image.
-   */
+  /** Set the color of a label, 0 to 1, for `LabelColor`. It overrides the color in the image. */
   void SetLabelColor(int label, double red, double green, double blue);
+  /** Remove all colors. */
   void ClearLabelColors();
   ///@}
 
   /** Return output port 1. */
   vtkPolyData* GetInterfaces();
 
-#ifndef __VTK_WRAP__ // It is no property of ours.
-  /** As of all algorithms, but while no run is under way it asks for and changes nothing. */
+#ifndef __VTK_WRAP__ // Not a property.
+  /** Has no effect unless the filter is running. */
   void SetAbortExecute(vtkTypeBool abort) override;
 #endif
 
@@ -329,10 +282,10 @@ protected:
 
 private:
   class vtkInternals;
-  /** Errors are thrown. */
+  /** Fill the outputs. Throw an exception on error. */
   void MakeSurfaces(
     vtkDataObject* input, vtkInformationVector* outputs, volumic::RunObserver& observer);
-  /** The blocks of the first process without surfaces; none if the input is refused. */
+  /** Make null blocks with the names of the first process. Make none if the input is invalid. */
   void MakeEmptyBlocks(vtkInformationVector* input, vtkMultiBlockDataSet* output);
   std::unique_ptr<vtkInternals> Internals; ///< the properties
 

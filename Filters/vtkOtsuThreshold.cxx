@@ -18,7 +18,10 @@
 vtkStandardNewMacro(vtkOtsuThreshold);
 
 //------------------------------------------------------------------------------
-vtkOtsuThreshold::vtkOtsuThreshold() : SelectedComponent(-1), Threshold(vtkMath::Nan()), BrightThreshold(vtkMath::Nan()) {}
+vtkOtsuThreshold::vtkOtsuThreshold()
+  : SelectedComponent(-1), Threshold(vtkMath::Nan()), BrightThreshold(vtkMath::Nan())
+{
+}
 
 //------------------------------------------------------------------------------
 vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
@@ -29,7 +32,7 @@ vtkDoubleArray* vtkOtsuThreshold::GetHistogram()
 //------------------------------------------------------------------------------
 int vtkOtsuThreshold::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Whatever it is: VTK's pipeline would run once per leaf of a composite dataset.
+  // Accept any type, or the pipeline would run the filter once per leaf of a composite dataset.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataObject");
   return 1;
 }
@@ -55,25 +58,26 @@ int vtkOtsuThreshold::RequestData(
   }
   const auto work = [&]
   {
-    const volumic::PointVoxels voxels = volumic::TakeCellsAsPoints(
+    const volumic::PointVoxels voxels = volumic::ConvertCellsToPoints(
       volumic::ImageOf(volumic::WholeInput(input[0])), this->GetInputArrayInformation(0));
-    const volumic::VoxelHistogram found =
+    const volumic::VoxelHistogram histogram =
       volumic::FindOtsuThreshold(voxels.Image, voxels.Selection, this->SelectedComponent);
     vtkNew<vtkDoubleArray> column;
     column->SetName("Threshold");
-    column->InsertNextValue(found.Threshold);
+    column->InsertNextValue(histogram.Threshold);
     vtkTable::GetData(output)->AddColumn(column);
-    this->Threshold = found.Threshold;
-    this->BrightThreshold = found.BrightThreshold;
-    this->Histogram->InsertNextValue(found.Range[0]);
-    this->Histogram->InsertNextValue(found.Range[1]);
-    for (const auto count : found.Counts)
+    this->Threshold = histogram.Threshold;
+    this->BrightThreshold = histogram.BrightThreshold;
+    this->Histogram->InsertNextValue(histogram.Range[0]);
+    this->Histogram->InsertNextValue(histogram.Range[1]);
+    for (const auto count : histogram.Counts)
     {
       this->Histogram->InsertNextValue(static_cast<double>(count));
     }
   };
   this->SetErrorCode(volumic::RunAlgorithm(
-    this, output, "Input port 0: ", [] { return "the memory does not suffice for the threshold."; }, work));
+    this, output,
+    "Input port 0: ", [] { return "not enough memory for the threshold. Crop the image."; }, work));
   return 1;
 }
 

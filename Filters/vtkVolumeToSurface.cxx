@@ -36,9 +36,9 @@ VOLUMIC_PYRAMID_PROPERTIES(VolumicPyramidSetting)
 std::string vtkVolumeToSurface::HintAtLabels(vtkImageData* image)
 {
   vtkDataArray* voxels = image ? image->GetPointData()->GetScalars() : nullptr;
-  const bool isOne =
+  const bool isScalar =
     voxels && voxels->GetNumberOfComponents() == 1 && voxels->HasStandardMemoryLayout();
-  return isOne ? volumic::HintAtLabels(voxels, image->GetDimensions()) : std::string();
+  return isScalar ? volumic::HintAtLabels(voxels, image->GetDimensions()) : std::string();
 }
 
 //------------------------------------------------------------------------------

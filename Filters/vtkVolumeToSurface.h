@@ -2,22 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 /**
  * @class   vtkVolumeToSurface
- * @brief   the surface of an object in an image, in one step
+ * @brief   segment an image with a closed surface, in one step
  *
- * vtkVolumeToSurface is vtkDeformableSurface for an image at hand: it makes the pyramid itself, and
- * without an IsoValue it takes vtkOtsuThreshold's.
+ * vtkVolumeToSurface is vtkDeformableSurface for an image: it computes the pyramid, and without an
+ * IsoValue it uses the threshold of vtkOtsuThreshold.
  *
  * @par Input:
- * Port 0: a vtkImageData, as vtkDeformableSurface says; an array of cells serves too (their centres
- * are the voxels), and is taken where points have no active scalars. A composite dataset with one
- * image in it serves as that image, a pyramid as its level 0. Port 1: as there.
+ * Port 0: a vtkImageData as for vtkDeformableSurface, a composite dataset with one image, or a
+ * pyramid, of which the filter uses level 0. The array may also be cell data, whose voxels are the
+ * centers of the cells. Cell data are the default if points have no active scalars. Ports 1 and 2:
+ * as for vtkDeformableSurface.
  *
  * @par Output:
- * As vtkDeformableSurface.
+ * As for vtkDeformableSurface.
  *
  * @par Errors:
- * As vtkDeformableSurface: ask GetErrorCode() after Update(). A label map (integers, almost all of
- * which are their neighbours' value) is a warning, once, that tells of vtkLabelsToSurfaces.
+ * As for vtkDeformableSurface. The filter warns once if the image looks like a label map, and
+ * refers to vtkLabelsToSurfaces.
  *
  * @sa
  * vtkDeformableSurface vtkImagePyramid vtkLabelsToSurfaces vtkOtsuThreshold
@@ -26,7 +27,8 @@
 #define vtkVolumeToSurface_h
 
 #include "vtkDeformableSurface.h"
-#include "vtkFiltersVolumicModule.h" // For export macro
+#include "vtkFiltersVolumicModule.h"  // For export macro
+#include "vtkVolumicPropertyMacros.h" // For volumicPropertyMacro
 
 #include <string>
 
@@ -41,34 +43,25 @@ public:
 
   ///@{
   /**
-   * Number of levels of the pyramid, the image included. 0, the default: as many as
-   * MinimumLevelSize allows.
+   * Set/Get the number of pyramid levels, including the image (default 0: limited by
+   * MinimumLevelSize).
    */
-  virtual void SetNumberOfLevels(int value);
-  virtual int GetNumberOfLevels();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(NumberOfLevels, int);
   /**
-   * With NumberOfLevels 0: no level after the image has an axis of fewer voxels than this.
-   * Default: 10.
+   * Set/Get the smallest number of voxels along an axis of a level, with NumberOfLevels 0 (default:
+   * 10).
    */
-  virtual void SetMinimumLevelSize(int value);
-  virtual int GetMinimumLevelSize();
-  ///@}
-
-  ///@{
+  volumicPropertyMacro(MinimumLevelSize, int);
   /**
-   * How many times fewer voxels a level has along each axis than the level below it. Between 1 and
-   * 2, both excluded. Default: sqrt(3).
+   * Set/Get the reduction factor between consecutive levels along each axis, in (1, 2) (default:
+   * sqrt(3)).
    */
-  virtual void SetReductionFactor(double value);
-  virtual double GetReductionFactor();
+  volumicPropertyMacro(ReductionFactor, double);
   ///@}
 
   /**
-   * What is told of an image whose active point scalars look like a label map: that there is
-   * vtkLabelsToSurfaces; empty: they don't.
+   * Return a warning that refers to vtkLabelsToSurfaces if the active point scalars of an image
+   * look like a label map. Otherwise return an empty string.
    */
   static std::string HintAtLabels(vtkImageData* image);
 

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# A campaign: the command on random volumes with random settings, many of them stopped on their way.
-# CGAL judges every surface that it writes: each level, each snapshot, each label. No test of CI, as
-# thousands of seeds take an hour; what it finds becomes a test.
+# Runs the command on random volumes with random settings; many runs are stopped early. CGAL judges
+# every written surface: levels, snapshots and labels. Not part of CI: thousands of seeds take an hour.
+# Faults that it finds become tests.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -13,14 +13,14 @@ usage()
 {
   cat << 'USAGE'
 Usage: bash Testing/campaign.sh [OPTION]... SEEDS [FIRST]
-SEEDS runs from seed FIRST on (1). A line is printed for each with an exception, or with more than
-20 s of processor time, whose files stay in build/campaign/SEED; its file `command` is the command
-line, to be run there. `campaign.sh 1 SEED` keeps the files whatever comes out.
-  --labels   small maps of labels, also judged against their voxels and against each other
-  --jobs N   runs at a time (default: one for each processor)
-  --help     this text
-Exit status: 0 when all surfaces are closed, manifold, oriented outward and free of intersections,
-and files, words and exit statuses agree.
+Runs SEEDS seeds from FIRST (default 1). Prints a line for each seed with an exception or more than
+20 s of processor time and keeps its files in build/campaign/SEED. The file `command` there is the
+command line, to be run in that folder. `campaign.sh 1 SEED` always keeps the files.
+  --labels   small label maps, also judged against their voxels and against each other
+  --jobs N   number of parallel runs (default: one per processor)
+  --help     print this text
+Exit status: 0 if all surfaces are closed, manifold, oriented outward and free of intersections, and
+files, messages and exit statuses agree.
 USAGE
 }
 
@@ -43,7 +43,7 @@ take_option()
   esac
 }
 parse_options "$@"
-[ ${#numbers[@]} -gt 0 ] || fail "How many seeds? Try --help."
+[ ${#numbers[@]} -gt 0 ] || fail "The number of seeds is missing. See --help."
 
 build_campaign() { cmake --build "$build/vtk" --target VolumicPythonStubs JudgeFiles -j "$(job_count)"; }
 

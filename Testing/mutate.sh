@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Breaks the core on purpose, in one place at a time (Testing/mutations.txt), in a copy of the
-# sources, and looks whether the tests of the core notice.
+# Mutation test: applies the mutations of Testing/mutations.txt, one at a time, to a copy of the
+# sources, and checks that the tests of the core fail.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -12,11 +12,11 @@ usage()
 {
   cat << 'USAGE'
 Usage: bash Testing/mutate.sh [OPTION]...
-  -R REGEX   only the mutations whose file or description matches
-  --check    only look whether each mutation has its place in the sources
-  --help     this text
-Exit status: 0 when the tests have noticed every mutation, 1 when one has survived, or when one has
-no place in the sources or does not compile, which is an error of the list.
+  -R REGEX   only mutations whose file or description matches
+  --check    only check that the text of each mutation occurs once in the sources
+  --help     print this text
+Exit status: 0 if tests failed for every mutation, 1 if a mutation survived, does not compile, or
+does not match the sources.
 USAGE
 }
 
@@ -37,7 +37,7 @@ parse_options "$@"
 
 list=$root/Testing/mutations.txt
 files=()        # of Filters/Core
-suites=()       # tests that should notice, as a filter of GoogleTest: run first
+suites=()       # tests that should fail, as a GoogleTest filter: run first
 descriptions=()
 originals=()
 replacements=()
@@ -58,13 +58,13 @@ read_list()
     elif [[ $line == "  +"* && $last -ge 0 ]]; then
       replacements[last]+="${replacements[last]:+$'\n'}${line:4}"
     elif [[ -n $line && $line != "#"* ]]; then
-      fail "$list: no line of a mutation: $line"
+      fail "$list: invalid line: $line"
     fi
   done < "$list"
-  [ ${#files[@]} -gt 0 ] || fail "$list has no mutations."
+  [ ${#files[@]} -gt 0 ] || fail "$list contains no mutations."
 }
 
-# mutated INDEX: prints the file with the mutation; false where its place is not found exactly once.
+# mutated INDEX: print the file with the mutation; fail if its text does not occur exactly once.
 mutated()
 {
   local text rest original=${originals[$1]}
@@ -76,18 +76,18 @@ mutated()
 
 check_list()
 {
-  local i lost=0
+  local i invalid=0
   for i in "${!files[@]}"; do
     if ! mutated "$i" > /dev/null; then
       say "Not found exactly once in ${files[$i]}: ${originals[$i]}"
-      lost=$((lost + 1))
+      invalid=$((invalid + 1))
     fi
   done
-  [ "$lost" -eq 0 ] || fail "$lost of ${#files[@]} mutations have no place in the sources: mend $list."
+  [ "$invalid" -eq 0 ] || fail "$invalid of ${#files[@]} mutations do not match the sources. Update $list."
 }
 
 copy= # a temporary folder, removed at the end
-time_limit=600 # Seconds after which tests count as caught in an endless loop.
+time_limit=600 # Seconds after which tests count as endless.
 
 configure_copy()
 {
@@ -95,7 +95,7 @@ configure_copy()
   find_vtk
   mkdir "$copy/sources"
   tar -C "$root" --exclude=./build --exclude=./.git -cf - . | tar -C "$copy/sources" -xf -
-  # Optimised a little: compiled once and run once.
+  # -O1: each mutation is compiled once and run once.
   cmake -S "$copy/sources" -B "$copy/build" -G Ninja \
     -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DVOLUMIC_BUILD_PARAVIEW_PLUGIN=OFF \
     -DVOLUMIC_BUILD_TESTING=ON -DVOLUMIC_BUILD_EXAMPLES=OFF -DVOLUMIC_WRAP_PYTHON=OFF \
@@ -104,21 +104,21 @@ configure_copy()
 
 build_copy() { cmake --build "$copy/build" --target TestCore -j "$(job_count)"; }
 
-# run_tests FILTER: whether they pass.
+# run_tests FILTER: run these tests; fail if one fails.
 run_tests()
 {
   GTEST_FAIL_FAST=1 timeout "$time_limit" "$copy/build/bin/TestCore" "--gtest_filter=$1" \
     < /dev/null
 }
 
-# killer: the test that failed, or that ran when the program died or took too long.
+# killer: print the test that failed, or that ran when the program crashed or timed out.
 killer()
 {
   { sed -n 's/^\[  FAILED  \] \([^ ,]*\).* ms).*/\1/p' "$copy/log"
     sed -n 's/^\[ RUN      \] //p' "$copy/log" | tail -n 1; } | sed -n 1p
 }
 
-# try_mutation INDEX: one line of the report.
+# try_mutation INDEX: test a mutation and print its line of the report.
 try_mutation()
 {
   local i=$1 started=$SECONDS verdict source=$copy/sources/Filters/Core/${files[$1]}
@@ -130,14 +130,14 @@ try_mutation()
   else
     verdict=SURVIVED
   fi
-  cp "$root/Filters/Core/${files[$i]}" "$source" # Compiled together with the next mutation.
+  cp "$root/Filters/Core/${files[$i]}" "$source" # Compiled with the next mutation.
   say "${files[$i]}: ${descriptions[$i]}: $verdict ($((SECONDS - started)) s)"
 }
 
 read_list
 check_list
 if $check_only; then
-  say "All ${#files[@]} mutations have their place in the sources."
+  say "All ${#files[@]} mutations match the sources."
   exit 0
 fi
 check_system
@@ -149,7 +149,7 @@ trap 'rm -rf "$copy"' EXIT
 run_step "Configuring a copy of the sources" mutate-configure configure_copy
 run_step "Building the tests of the core" mutate-build build_copy
 started=$SECONDS
-run_step "Running them on the unbroken core" mutate-tests run_tests '*'
+run_step "Running them on the original core" mutate-tests run_tests '*'
 time_limit=$((30 + 5 * (SECONDS - started)))
 
 report=$logs/mutate-report.log
@@ -159,5 +159,5 @@ for i in "${!files[@]}"; do
   fi
 done | tee "$report"
 say ""
-say "$(grep -c ': killed by ' "$report") of $(grep -c '' "$report") mutations have been noticed."
+say "$(grep -c ': killed by ' "$report") of $(grep -c '' "$report") mutations were killed."
 ! grep -vq ': killed by ' "$report"

@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Runs the tests, or another command, on a bare Debian of any release: a system of its own in a
-# folder, made by debootstrap, with a copy of this checkout. Needs root, for chroot.
+# Runs the tests or another command on a minimal Debian of any release, which debootstrap installs in a
+# folder, with a copy of this checkout. Needs root for chroot.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -13,15 +13,15 @@ usage()
   cat << 'USAGE'
 Usage: bash Testing/on_debian.sh [OPTION]... RELEASE [COMMAND [ARGUMENT]...]
   RELEASE           bookworm, trixie, forky, testing, sid or another name; or 12, 13, 14
-  COMMAND           what is run in the copy's root folder; by default bash Testing/run.sh
-  --system DIR      keep the system in DIR, and use the one that is there from a run before; by
-                    default it is made in a temporary folder and removed at the end
-  --bind DIR        let the system see this folder, too, under the same name; may be repeated
-  --mirror URL      where the packages come from; by default from where this machine's come
-  --help            this text
-The copy is /volumic/checkout in the system; its build folder is kept as long as the system is. A
-folder `shared` beside this checkout is seen beside the copy, read-only.
-Exit status: the command's.
+  COMMAND           command to run in the root folder of the copy (default: bash Testing/run.sh)
+  --system DIR      keep the system in DIR, or use the one that an earlier run made there (default:
+                    a temporary folder, which is removed at the end)
+  --bind DIR        mount this folder in the system under the same name; may be repeated
+  --mirror URL      package mirror (default: that of this machine)
+  --help            print this text
+The copy is /volumic/checkout in the system. Its build folder is kept with the system. A folder
+`shared` beside this checkout is mounted read-only beside the copy.
+Exit status: that of the command.
 USAGE
 }
 
@@ -52,7 +52,7 @@ parse_options "$@"
 set -- "${arguments[@]}"
 if [ $# -eq 0 ]; then
   usage >&2
-  fail "Which release of Debian?"
+  fail "The release of Debian is missing."
 fi
 release=$1
 shift
@@ -60,22 +60,22 @@ case $release in
   12) release=bookworm ;;
   13) release=trixie ;;
   14) release=forky ;;
-  *[!a-z]*) fail "$release: is no release of Debian" ;;
+  *[!a-z]*) fail "$release is not a release of Debian." ;;
 esac
 case ${1-} in
-  -*) fail "$1: options come before the release" ;;
+  -*) fail "Put the option $1 before the release." ;;
 esac
 if [ $# -gt 0 ]; then
   command=("$@")
 else
   command=(bash Testing/run.sh)
 fi
-[ "$(id -u)" -eq 0 ] || fail "A system of its own takes root's rights: please start this with sudo."
+[ "$(id -u)" -eq 0 ] || fail "Run this script as root (sudo)."
 
 # ---- Cleaning up -------------------------------------------------------------------------------
 
-# Whatever is mounted, is mounted in a namespace that ends with its processes; they end with this
-# script, even if it is killed. So only the temporary folder is left to be removed here.
+# All mounts are in a namespace that ends with its processes, and these end with this script, even if
+# it is killed. Only the temporary folder must be removed here.
 temporary=
 child=
 clean_up()
@@ -92,8 +92,8 @@ trap 'exit 129' HUP
 trap 'exit 130' INT
 trap 'exit 143' TERM
 
-# apart COMMAND...: run it with mounts and processes of its own. Not in the foreground, where a
-# signal would have to wait for its end.
+# apart COMMAND...: run a command in its own mount and process namespace, in the background, so that
+# signals are handled before it ends.
 apart()
 {
   local status=0
@@ -107,25 +107,25 @@ apart()
 
 # ---- The system --------------------------------------------------------------------------------
 
-# Where this machine's Debian packages come from; debootstrap knows a place itself.
+# Print the mirror of this machine's Debian packages; if empty, the default mirror is used.
 configured_mirror()
 {
   apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Label: Debian' \
     'Created-By: Packages' | sed -n 1p
 }
 
-# make_system DIR: a minimal Debian.
+# make_system DIR: install a minimal Debian.
 make_system()
 {
   local scripts=/usr/share/debootstrap/scripts script
   script=$scripts/$release
-  [ -e "$script" ] || script=$scripts/sid # a release that is newer than debootstrap
+  [ -e "$script" ] || script=$scripts/sid # the release is newer than debootstrap
   debootstrap --variant=minbase \
     --keyring=/usr/share/keyrings/debian-archive-keyring.gpg \
     "$release" "$1" "${mirror:-http://deb.debian.org/debian}" "$script"
 }
 
-# How apt reaches the mirror: proxies and the like.
+# Copy how apt reaches the mirror, such as proxies.
 copy_network_settings()
 {
   cp -L /etc/resolv.conf /etc/hosts "$1/etc/"
@@ -133,8 +133,8 @@ copy_network_settings()
     > "$1/etc/apt/apt.conf.d/90machine"
 }
 
-# copy_checkout DIR: this checkout as it is, without what git ignores; DIR/build stays. Files are as
-# new as the copy: one that was changed before a build of an earlier copy ended would look built.
+# copy_checkout DIR: copy this checkout without ignored files; DIR/build stays. Files get the time of
+# the copy: with their own times, changes made during an earlier build would not be compiled.
 copy_checkout()
 {
   mkdir -p "$1"
@@ -144,7 +144,7 @@ copy_checkout()
     | tar -c --null -T -) | tar -x --no-same-owner --touch -C "$1"
 }
 
-# The namespace's first process: SYSTEM SHARED BIND... -- COMMAND...
+# The first process of the namespace: SYSTEM SHARED BIND... -- COMMAND...
 enter='
   set -e
   system=$1 shared=$2
@@ -167,7 +167,7 @@ enter='
     LANG=C.UTF-8 TERM="${TERM:-dumb}" DEBIAN_FRONTEND=noninteractive \
     sh -c "cd /volumic/checkout && exec \"\$@\"" sh "$@"'
 
-# In braces, so that all of it is read before it runs: this file may be edited meanwhile.
+# In braces, so that bash reads all of it first: this file may be edited during the run.
 {
 plan_steps 3
 install_packages debootstrap debian-archive-keyring git
@@ -181,14 +181,14 @@ if [ -e "$system/etc/os-release" ]; then
   present=$(. "$system/etc/os-release" && echo "${VERSION_CODENAME:-unknown}")
   case $release in
     "$present" | testing | sid | unstable) ;;
-    *) fail "$system holds Debian $present, not $release. Choose another folder, or remove it." ;;
+    *) fail "$system contains Debian $present, not $release. Choose another folder or remove it." ;;
   esac
   run_step "System: Debian $present of an earlier run" debian-system true
 else
   if [ -e "$system" ] && [ -n "$(ls -A "$system")" ]; then
-    fail "$system holds something else. Choose a folder that is empty or not there yet."
+    fail "$system does not contain a Debian. Choose an empty or new folder."
   fi
-  # Under another name until it is complete.
+  # Has another name until it is complete.
   export -f make_system
   export release mirror
   rm -rf --one-file-system "$system.partial"
@@ -198,9 +198,9 @@ else
   mv "$system.partial" "$system"
 fi
 system=$(realpath "$system")
-# Another run would have the sources replaced while they are compiled.
+# A second run would replace the sources during compilation.
 exec 9> "$system/volumic.lock"
-flock -n 9 || fail "$system is in use by another run. Wait for its end, or choose another folder."
+flock -n 9 || fail "$system is used by another run. Wait until it ends or choose another folder."
 
 prepare_system()
 {

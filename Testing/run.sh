@@ -2,8 +2,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# From a bare Debian to all tests passed: installs what is missing, builds Volumic for VTK and
-# for ParaView under build/, and runs the tests of both. Quick when run again.
+# Installs missing packages on Debian, builds Volumic for VTK and for ParaView under build/, and runs
+# the tests of both builds. Later runs are incremental.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -12,10 +12,10 @@ usage()
 {
   cat << 'USAGE'
 Usage: bash Testing/run.sh [OPTION]...
-  --vtk-only        the library, the Python package and their tests only
-  --paraview-only   the ParaView plugin and its tests only
-  -R REGEX          only the tests whose name matches
-  --help            this text
+  --vtk-only        only the library, the Python package and their tests
+  --paraview-only   only the ParaView plugin and its tests
+  -R REGEX          only tests whose name matches
+  --help            print this text
 USAGE
 }
 
@@ -28,15 +28,15 @@ take_option()
     --paraview-only) flavours=(paraview) ;;
     -R)
       need_value "a regular expression" "$@"
-      selection=(-R "$2") # may well select none of one flavour's tests
+      selection=(-R "$2") # may select no test of one build
       ;;
     *) return 1 ;;
   esac
 }
 parse_options "$@"
 
-# run_tests FLAVOUR: one step, whose output is shown as it comes. Failures don't stop the script, so
-# that the other flavour's tests are run too.
+# run_tests FLAVOUR: a step that prints its output at once. After a failure the tests of the other
+# build run too.
 failed=0
 run_tests()
 {
@@ -51,7 +51,7 @@ run_tests()
   [ "$status" -eq 0 ] || failed=1
 }
 
-# summarize FLAVOUR: one line from ctest's output.
+# summarize FLAVOUR: print one line from ctest's output.
 summarize()
 {
   local log=$logs/test-$1.log passed skipped broken seconds
@@ -63,8 +63,8 @@ summarize()
     "${broken:-0}" "$skipped" "$seconds" "$log"
 }
 
-# slowest: the ten tests that took longest, of all flavours. The last command of the pipe reads all:
-# one that closes it early would end `sort`, and with it the script.
+# slowest: print the ten slowest tests of all builds. The last command of the pipe reads all lines:
+# closing the pipe early would stop `sort` and the script.
 slowest()
 {
   local flavour
@@ -74,8 +74,8 @@ slowest()
   done | sort -rn | sed -n '1,10s/^/  /p'
 }
 
-# use_ccache: much is compiled alike for both flavours, and more of it again the next time. In the
-# mode `depend`, ccache asks the compiler what it has read, and knows precompiled headers.
+# use_ccache: both builds share many object files. In the mode `depend`, ccache gets the list of
+# headers from the compiler and supports precompiled headers.
 use_ccache()
 {
   ccache_options=()
@@ -110,21 +110,21 @@ for flavour in "${flavours[@]}"; do
 done
 
 if ! grep -qE '^ *1/[0-9]+ Test ' "${test_logs[@]}"; then
-  fail "No test was selected."
+  fail "No test matches."
 fi
 say ""
 say "Summary, after $SECONDS s:"
 for flavour in "${flavours[@]}"; do
   summarize "$flavour"
 done
-say "The slowest:"
+say "Slowest tests:"
 slowest
 if [ "$failed" -ne 0 ]; then
-  fail "Some tests failed; see above, or the logs."
+  fail "Some tests failed; see above or the logs."
 fi
 say "All tests passed."
 if [[ " ${flavours[*]} " == *" paraview "* ]]; then
-  say "To use the plugin yourself, load
+  say "To use the plugin, load
   $(find "$build/install-paraview" -name Volumic.so)
 in $(paraview_prefix)/bin/paraview"
 fi

@@ -2,9 +2,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds the C++ tests twice more, for VTK, and runs them: with AddressSanitizer and
-# UndefinedBehaviorSanitizer, and with ThreadSanitizer. What they find makes tests fail. Flags,
-# environment and selection are those of the presets `asan` and `tsan` in CMakePresets.json.
+# Builds and runs the C++ tests for VTK twice: with AddressSanitizer and UndefinedBehaviorSanitizer,
+# and with ThreadSanitizer. Findings make tests fail. Flags, environment and selected tests are those
+# of the presets `asan` and `tsan` in CMakePresets.json.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../CMake/debian.sh"
@@ -15,8 +15,8 @@ usage()
 Usage: bash Testing/sanitize.sh [OPTION]...
   --address-only    AddressSanitizer and UndefinedBehaviorSanitizer only
   --thread-only     ThreadSanitizer only
-  -R REGEX          only the tests whose name matches
-  --help            this text
+  -R REGEX          only tests whose name matches
+  --help            print this text
 USAGE
 }
 
@@ -36,15 +36,15 @@ take_option()
 }
 parse_options "$@"
 
-cd "$root" # where presets are looked for
+cd "$root" # cmake reads the presets there
 
-# configure_sanitized PRESET: the tree build/PRESET.
+# configure_sanitized PRESET: configure build/PRESET.
 configure_sanitized()
 {
   local vtk_options
   find_vtk
   cd "$root"
-  # Afresh: with the preset's flags of today, and wherever the checkout was moved from.
+  # --fresh: the flags of the preset or the path of the checkout may have changed.
   cmake --fresh --preset "$1" "${vtk_options[@]}"
 }
 
@@ -53,7 +53,7 @@ build_sanitized()
   cmake --build --preset "$1" -j "$(job_count)"
 }
 
-# run_sanitized PRESET: one step, whose output is shown as it comes.
+# run_sanitized PRESET: a step that prints its output at once.
 failed=0
 run_sanitized()
 {

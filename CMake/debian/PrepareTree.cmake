@@ -15,7 +15,7 @@ foreach (file IN LISTS files)
   elseif (file MATCHES "[.]so([.0-9]*)$")
     file(RPATH_REMOVE FILE "${file}")
   elseif (file MATCHES "/bin/volumic$")
-    # Debian's interpreter finds VTK by itself.
+    # Debian's interpreter finds VTK without help.
     file(READ "${file}" script)
     string(REGEX REPLACE "^#![^\n]*" "#!/usr/bin/python3" script "${script}")
     string(REGEX REPLACE "sys[.]path[.]append[^\n]*\n" "" script "${script}")

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Builds the pyramid of an image and writes it as blocks:
+// Build the pyramid of an image and write it as blocks:
 //   BuildPyramid IN.vti OUT.vtm [NUMBER_OF_LEVELS]
 #include <vtkCompositeDataSet.h>
 #include <vtkDataArray.h>
@@ -36,7 +36,7 @@ int main(int argc, char* argv[])
   vtkMultiBlockDataSet* levels = pyramid->GetOutput();
   if (pyramid->GetErrorCode() != vtkErrorCode::NoError || levels->GetNumberOfBlocks() == 0)
   {
-    return EXIT_FAILURE; // the reason was printed by VTK
+    return EXIT_FAILURE; // VTK has printed the error
   }
   for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
   {

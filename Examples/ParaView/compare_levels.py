@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The surface at each level side by side in ParaView, all views turned together.
+"""Show the surfaces of all levels side by side in ParaView, with linked cameras.
 
-As a macro: Macros > Import new macro..., choose this file; then select a Volume to Surface or a
-Deformable Surface that has been applied, and press the macro's button.
+As a macro: use Macros > Import new macro... with this file, select an applied Volume to Surface or
+Deformable Surface, and press the button of the macro.
 
-As a script, which writes the picture (the plugin must be known to ParaView, or named):
+As a script that writes a picture (the plugin must be loaded by ParaView or given):
     pvbatch compare_levels.py VOLUME PICTURE.png [ISO_VALUE] [--plugin=.../Volumic.so]
 """
 
@@ -16,49 +16,50 @@ from paraview import simple
 
 FILTERS = ("VolumeToSurface", "DeformableSurface")
 LEVELS = 1  # output port
-MOST = 4  # views beside each other; the coarsest levels of more are left out
+MAXIMUM_VIEWS = 4  # of the finest levels
 
 
 def chosen_filter():
-    """The active source, or what it is an output of; else the last of the filters."""
+    """Return the active filter, or the last of the filters. Raise RuntimeError if there is none."""
     active = simple.GetActiveSource()
     candidates = [active] if active else []
     candidates += reversed(list(simple.GetSources().values()))
     for source in candidates:
         if source.GetXMLName() in FILTERS:
             return source
-    raise RuntimeError("There is no Volume to Surface and no Deformable Surface to compare.")
+    raise RuntimeError("No filter found; apply Volume to Surface or Deformable Surface first.")
 
 
 def visited_levels(filter_):
-    """(name, selector) of the blocks that have a surface, the coarsest level first."""
+    """Return (name, selector) of non-empty blocks, the coarsest level first."""
     filter_.UpdatePipeline()
     tree = filter_[LEVELS].GetDataInformation().DataInformation.GetHierarchy()
     visited = []
     for node in (tree.GetChild(0, i) for i in range(tree.GetNumberOfChildren(0))):
         name = tree.GetAttributeOrDefault(node, "label", "")
-        # Not the node's path, which is the same for levels 1 and -1.
+        # The path of the node is the same for levels 1 and -1.
         selector = f"/Root/*[@label='{name}']"
         surface = filter_.SMProxy.GetSubsetDataInformation(LEVELS, selector, "Hierarchy")
         if surface.GetNumberOfPoints() > 0:
             visited.append((name, selector))
-    # "Level 2": level -1, finer than the volume, comes last among the blocks.
+    # Names are such as "Level 2"; level -1 is the last block.
     visited.sort(key=lambda level: -int(level[0].split()[1]))
-    return visited[-MOST:]
+    return visited[-MAXIMUM_VIEWS:]
 
 
 def side_by_side(layout, count):
-    """Cells of the layout from left to right, equally wide."""
+    """Return cells of the layout of equal width, from left to right."""
     cells, cell = [], 0
-    for rest in range(count, 1, -1):
-        left = layout.SplitHorizontal(cell, 1.0 / rest)
+    for remaining in range(count, 1, -1):
+        left = layout.SplitHorizontal(cell, 1.0 / remaining)
         cells.append(left)
         cell = left + 1
     return cells + [cell]
 
 
 def compare_levels(filter_):
-    """A new layout with a view per level; the views, from the coarsest level to the finest."""
+    """Create a layout with one view per level. Return the layout and the views, the coarsest
+    first."""
     levels = visited_levels(filter_)
     names = [key[0] for key, source in simple.GetSources().items() if source == filter_]
     layout = simple.CreateLayout(f"Levels of {names[0] if names else 'a surface'}")
@@ -72,7 +73,7 @@ def compare_levels(filter_):
         caption = simple.Text(registrationName=f"Caption of {name}", Text=name)
         simple.Show(caption, view)
         views.append(view)
-    # What is seen is known once it has been drawn.
+    # Bounds are known after rendering.
     simple.RenderAllViews()
     for number, view in enumerate(views[:-1]):
         simple.AddCameraLink(views[-1], view, f"levels {filter_.GetGlobalIDAsString()} {number}")
@@ -106,7 +107,7 @@ def main(arguments):
     print(f"Written: {picture}")
 
 
-# A macro runs within ParaView, whose arguments are not ours.
+# In a macro, sys.argv is that of ParaView.
 if sys.argv and os.path.basename(sys.argv[0]) == "compare_levels.py":
     main(sys.argv[1:])
 else:

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A video of an evolution, or a picture of each step, from snapshots that the command wrote:
+"""Make a video of an evolution, or one picture per step, from snapshots of the command:
 
     volumic skull.vti skull.vtp --iso 226.5 --snapshots steps.vtm --snapshot-interval 5
     xvfb-run -a /usr/bin/python3 evolution.py steps.vtm evolution.ogv
 
-OUTPUT is an .ogv video or a folder for pictures. (With --snapshots DIR the command writes files
-that ParaView opens as one surface in time.)
+The output is an .ogv video or a folder of pictures. With --snapshots DIR the command writes files
+that ParaView opens as a time series.
 """
 
 import os
@@ -20,14 +20,15 @@ from vtkmodules.vtkIOOggTheora import vtkOggTheoraWriter
 from vtkmodules.vtkIOXML import vtkXMLMultiBlockDataReader
 
 WIDTH = 640  # pixels
-LAST_FRAMES = 12  # of the last step; those of a second
+FRAME_RATE = 12
+LAST_FRAMES = FRAME_RATE  # frames of the last step
 
 
 def frames_of(steps):
-    """A picture of each step, all of one size, with even sides, as videos need them."""
+    """Yield a picture of each step, of equal even size, as required by videos."""
     space = steps[0].GetFieldData().GetAbstractArray("SPACE")
     frame = render.Frame(space.GetValue(0) if space else "")
-    # The first surfaces enclose the whole volume.
+    # Common bounds: the first surfaces enclose the whole volume.
     every = np.array([surface.GetBounds() for surface in steps])
     bounds = np.where([True, False] * 3, every.min(axis=0), every.max(axis=0))
     size = WIDTH, render.fitting_height(WIDTH, frame, [THREE_QUARTERS], bounds)
@@ -49,7 +50,7 @@ def main(snapshots, output):
         return
     writer = vtkOggTheoraWriter()
     writer.SetFileName(output)
-    writer.SetRate(12)
+    writer.SetRate(FRAME_RATE)
     for step, pixels in enumerate(frames_of(steps)):
         writer.SetInputData(render.image_of(pixels))
         if step == 0:

@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The picture of an evolution: the four curves of figure 5 of the paper, a colour for each level.
+"""Chart of an evolution: the four curves of figure 5 of the paper, with one colour per level.
 
 Lachaud and Montanvert, "Volumic Segmentation using Hierarchical Representation and Triangulated
 Surface", ECCV 1996.
 """
 
 import numpy as np
-import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401, the factory of 2D drawing
+import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401, registers 2D rendering
 import render
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChart, vtkChartMatrix, vtkChartXY
@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingContext2D import vtkPen
 from vtkmodules.vtkRenderingCore import vtkRenderWindow
 from vtkmodules.vtkViewsContext2D import vtkContextView
 
-# Column of the history, title, factor, whether the axis is logarithmic.
+# Column of the history, title, factor, logarithmic axis.
 CURVES = (("Seconds", "Time since the previous iteration (ms)", 1000, True),
           ("KineticEnergy", "Mean kinetic energy along the normals", 1, True),
           ("MeanEdgeLength", "Mean length of the edges (world units)", 1, False),
@@ -30,20 +30,20 @@ SCALE = render.OVERSAMPLING
 
 
 def read_history(path):
-    """{column: values} of a .csv file that the command wrote."""
+    """Return the columns of a .csv history by name."""
     table = np.genfromtxt(path, delimiter=",", names=True)
     return {name: np.atleast_1d(table[name]) for name in ("Level", *(c[0] for c in CURVES))}
 
 
 def history_chart(history, size=(1480, 900)):
-    """The picture of one evolution, an array of pixels as in render.py."""
+    """Return the chart of one evolution, pixels as in render.py."""
     cells = [(number % 2, number // 2, curve, history) for number, curve in enumerate(CURVES)]
     names = legend(history, size[0], 18, history["Level"].max(), " iterations")
     return np.concatenate([render.blank(14, size[0]), names, draw_charts(cells, None, size)])
 
 
 def legend(history, width, size, coarsest, unit=""):
-    """A strip with the number of iterations on each level, in its colour."""
+    """Return a strip with the number of iterations of each level."""
     levels, counts = np.unique(history["Level"], return_counts=True)
     step = width // len(levels)
     return render.line_strip(
@@ -57,9 +57,9 @@ def color_of(level, coarsest):
     return COLORS[int(coarsest - level) % len(COLORS)]
 
 
-def draw_charts(cells, beside, size):
-    """Charts in a grid: (column, row from the top, curve, history) of each; those of a curve have
-    the same axes. beside: the history of the dashed line, or None."""
+def draw_charts(cells, reference, size):
+    """Draw charts in a grid. cells: (column, row from the top, curve, history); charts of a curve
+    share their axes. reference: history of the dashed line, or None."""
     coarsest = max(history["Level"].max() for *_, history in cells)
     columns, rows = (1 + max(cell[axis] for cell in cells) for axis in (0, 1))
     matrix = vtkChartMatrix()
@@ -69,15 +69,15 @@ def draw_charts(cells, beside, size):
     for column, row, (name, title, factor, logarithmic), history in cells:
         chart = vtkChartXY()
         matrix.SetChart(vtkVector2i(column, rows - 1 - row), chart)
-        if beside:
-            values = beside[name] * factor
+        if reference:
+            values = reference[name] * factor
             add_line(chart, np.arange(1.0, len(values) + 1), values, OTHER_COLOR, 1.5, True)
         for level in np.unique(history["Level"])[::-1]:
             at = np.flatnonzero(history["Level"] == level)
-            at = np.arange(max(at[0] - 1, 0), at[-1] + 1)  # each starts where the one before ended
+            at = np.arange(max(at[0] - 1, 0), at[-1] + 1)  # starts at the end of the previous level
             add_line(chart, at + 1.0, history[name][at] * factor, color_of(level, coarsest), 2.0)
         style_chart(chart, title)
-        shown = [table[name] for *_, table in cells] + ([beside[name]] if beside else [])
+        shown = [table[name] for *_, table in cells] + ([reference[name]] if reference else [])
         fix_axis(chart.GetAxis(vtkAxis.BOTTOM), max(map(len, shown)))
         values = np.concatenate(shown) * factor
         if logarithmic and (values > 0).any():
@@ -108,23 +108,23 @@ def add_line(chart, iterations, values, color, width, dashed=False):
 
 def style_chart(chart, title):
     chart.SetTitle(title)
-    look = chart.GetTitleProperties()
-    look.SetColor(render.INK)
-    look.SetFontSize(17 * SCALE)
-    look.SetBold(True)
+    style = chart.GetTitleProperties()
+    style.SetColor(render.INK)
+    style.SetFontSize(17 * SCALE)
+    style.SetBold(True)
     for number in (vtkAxis.BOTTOM, vtkAxis.LEFT):
         axis = chart.GetAxis(number)
         axis.SetTitle("Iteration" if number == vtkAxis.BOTTOM else "")
         axis.GetPen().SetColorF(*render.SOFT_INK)
         axis.GetGridPen().SetColorF(0.22, 0.235, 0.26)
-        for look in (axis.GetLabelProperties(), axis.GetTitleProperties()):
-            look.SetColor(render.SOFT_INK)
-            look.SetFontSize(14 * SCALE)
-            look.SetBold(False)
+        for style in (axis.GetLabelProperties(), axis.GetTitleProperties()):
+            style.SetColor(render.SOFT_INK)
+            style.SetFontSize(14 * SCALE)
+            style.SetBold(False)
 
 
 def fix_axis(axis, largest):
-    """From 0 to a little over the largest value, with some five round numbers between."""
+    """Set the range to 0 to slightly above the largest value, with about five round ticks."""
     largest = largest if largest > 0 and np.isfinite(largest) else 1
     power = 10 ** np.floor(np.log10(largest / 5))
     step = next(f * power for f in (1, 2, 2.5, 5, 10) if largest / (f * power) <= 6)
@@ -137,7 +137,7 @@ def fix_axis(axis, largest):
 
 
 def fix_logarithmic_axis(axis, values):
-    """Whole powers of ten about the values."""
+    """Set the range to powers of ten around the values."""
     low, high = np.floor(np.log10(values.min())), np.ceil(np.log10(values.max()))
     axis.LogScaleOn()
     axis.SetBehavior(vtkAxis.FIXED)

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Pictures of a run of the command `volumic`, from the files that quickstart.sh has it write.
+"""Draw pictures of a run of the command `volumic` from its output files, as quickstart.sh does.
 
     pictures.py VOLUME FOLDER
 
-FOLDER holds report.json, levels.vtm, surface.vtp and history.csv; written are
+FOLDER contains report.json, levels.vtm, surface.vtp and history.csv. The script writes
 
-    pyramid.vtm, pyramid.png   the images of all levels; their slices and iso-surfaces
-    levels.png                 the surface at the end of each level
-    surface-views.png          the finest surface from several sides, cut open, and on slices
-    history.png                the four curves of the paper
+    pyramid.vtm, pyramid.png   image pyramid; slices and isosurfaces of its levels
+    levels.png                 surface of each level
+    surface-views.png          final surface from several sides, cut open, and on slices
+    history.png                four curves of the evolution
 """
 
 import json
@@ -36,7 +36,7 @@ from vtkmodules.vtkIOXML import (
 
 WIDTH = 420  # pixels of a panel
 CONTOUR = (1.0, 0.55, 0.16)
-THREE_QUARTERS = ("AAAALLS", "S")  # views: towards the camera, upwards
+THREE_QUARTERS = ("AAAALLS", "S")  # views: direction to the camera, up
 OUTSIDE = (("A", "S"), ("L", "S"), ("I", "A"))
 INSIDE = (("L", "S"), ("S", "A"))
 SLICES = (("I", "A"), ("A", "S"), ("L", "S"))
@@ -46,11 +46,11 @@ NAMES = (("From the front", "From the side", "From below"),
 NAMES_OF_A_BOX = (("Along y", "Along x", "Along z"),
                   ("Cut open, along x", "Cut open, along z", "The triangles"),
                   ("Across z", "Across y", "Across x"))
-EDGES_WIDTH = 36  # mean edges across the close view of the triangles
+EDGES_WIDTH = 36  # width of the close-up in mean edge lengths
 
 
 class Scan:
-    """A volume as an image of VTK, the frames of its axes, and how grey it is drawn."""
+    """A volume as vtkImageData, the frames of its axes, and its grey value window."""
 
     def __init__(self, volume, iso):
         self.image = make_image(volume.scalars(), volume.spacing, volume.origin, volume.direction)
@@ -63,12 +63,13 @@ class Scan:
         self.window = black, max(white, black + 1e-6 * max(1, abs(black)))
 
     def bounds(self):
-        """Of the whole voxels, in the coordinates of render.slice_actor."""
+        """Return the bounds of the voxels in the coordinates of render.slice_actor."""
         size, spacing = self.image.GetDimensions(), self.image.GetSpacing()
         return [(side * size[c] - 0.5) * spacing[c] for c in range(3) for side in (0, 1)]
 
     def slice(self, image, view, size, lines=None):
-        """The middle slice of an image across the index axis towards the camera, with lines."""
+        """Return a picture of the central slice across the index axis of a view, optionally with
+        lines."""
         towards = self.indices.vector(view[0])
         axis = int(np.argmax(np.abs(towards)))
         actors = [render.slice_actor(image, axis, image.GetDimensions()[axis] // 2, self.window)]
@@ -79,7 +80,7 @@ class Scan:
 
 
 def number(surface, name):
-    """A number of the surface's field data."""
+    """Return a number of the field data."""
     return surface.GetFieldData().GetArray(name).GetTuple1(0)
 
 
@@ -90,7 +91,7 @@ def blocks_of(data):
 # ---- The pyramid -------------------------------------------------------------------------------
 
 def pyramid_picture(pyramid, scan, title, width=WIDTH):
-    """The middle slices and the iso-surface of each level, the coarsest first."""
+    """Return central slices and isosurfaces of all levels, the coarsest first."""
     levels = blocks_of(pyramid)[::-1]
     rows = []
     for view in SLICES[::2]:
@@ -111,7 +112,7 @@ def pyramid_picture(pyramid, scan, title, width=WIDTH):
 
 
 def iso_surface(image, iso):
-    """For a picture only: open at the border of the image."""
+    """Return an isosurface, which is open at the border of the image."""
     contour = vtkFlyingEdges3D()
     contour.SetInputData(image)
     contour.SetValue(0, iso)
@@ -122,14 +123,14 @@ def iso_surface(image, iso):
 # ---- Surfaces ----------------------------------------------------------------------------------
 
 def visited_levels(levels):
-    """(number, surface) of the blocks that hold a surface, coarsest first; the last may be -1."""
+    """Return (level, surface) of non-empty blocks, the coarsest first; the last may be level -1."""
     visited = [(int(number(block, "Level")), block) for block in blocks_of(levels)
                if block is not None and block.GetNumberOfPolys() > 0]
     return sorted(visited, key=lambda entry: -entry[0])
 
 
 def surface_row(surfaces, frame, bounds, width=WIDTH, zoom=1.1):
-    """Panels and captions, for render.compose, of (name, surface) from one camera."""
+    """Return panels and captions of (name, surface) from one camera, for render.compose."""
     size = width, render.fitting_height(width, frame, [THREE_QUARTERS], bounds)
     row = [render.draw([render.surface_actor(surface)], size, frame, *THREE_QUARTERS, bounds,
                        zoom=zoom) for _, surface in surfaces]
@@ -140,17 +141,16 @@ def surface_row(surfaces, frame, bounds, width=WIDTH, zoom=1.1):
 
 
 def levels_picture(levels, frame, title):
-    """A row with the surface of each visited level from one camera."""
+    """Return a row with the surface of each level from one camera."""
     surfaces = [(f"Level {level}", surface) for level, surface in visited_levels(levels)]
     row, captions = surface_row(surfaces, frame, surfaces[-1][1].GetBounds())
     return render.compose([row], [captions], title)
 
 
 def views_picture(surface, scan, title):
-    """The finest surface from three sides, cut open, close by, and on slices of the image.
+    """Return the surface from three sides, cut open, in close-up, and on slices of the image.
 
-    Where one component is most of the surface, such as a skull beside the head rest, the views in
-    space show it alone.
+    If one component has most of the area, the 3D views show only this component.
     """
     shown, heading = main_component(surface)
     bounds, frame = shown.GetBounds(), scan.frame
@@ -168,7 +168,8 @@ def views_picture(surface, scan, title):
 
 
 def main_component(surface):
-    """The component of more than half the area, or else the surface; and its description."""
+    """Return the component with more than half of the area, otherwise the surface, and a
+    description."""
     areas = vtk_to_numpy(surface.GetFieldData().GetArray("ComponentArea"))
     if len(areas) == 1 or areas[0] < 0.5 * areas.sum():
         return surface, f"All of the {len(areas)} components" if len(areas) > 1 else None
@@ -194,7 +195,7 @@ def plane_at(point, normal):
 
 
 def cut_open(surface, keep_towards):
-    """Actor of the half of the surface in that direction, closed by coloured faces."""
+    """Return an actor of the half of a surface in a direction, closed by coloured faces."""
     planes = vtkPlaneCollection()
     planes.AddItem(plane_at(np.reshape(surface.GetBounds(), (3, 2)).mean(axis=1), keep_towards))
     clip = vtkClipClosedSurface()
@@ -203,7 +204,7 @@ def cut_open(surface, keep_towards):
     clip.SetScalarModeToColors()
     clip.SetBaseColor(render.BONE)
     clip.SetClipColor(render.CUT_FACE)
-    # The clip drops the normals; smooth ones, but not across the boundary of the cut.
+    # Recompute normals, which the clip removes, with sharp edges at the cut.
     normals = vtkPolyDataNormals()
     normals.SetInputConnection(clip.GetOutputPort())
     normals.SetFeatureAngle(40)
@@ -216,12 +217,10 @@ def cut_open(surface, keep_towards):
 
 
 def close_view(surface, frame, size, towards="AAAL", at=(.5, .5, .5), delta=None):
-    """Some triangles with their edges, at a position given by its shares of the bounds.
-
-    As many as fit of an even surface with that delta, by default its own.
-    """
+    """Return a close-up of triangles with edges. at: position relative to the bounds. delta:
+    determines the scale (default: that of the surface)."""
     bounds = surface.GetBounds()
-    # Edges are 1 to 2.5 delta long, and 1.6 delta in the mean.
+    # The mean edge length is 1.6 delta.
     width = EDGES_WIDTH * 1.6 * (delta or number(surface, "Delta"))
     low, high = np.reshape(bounds, (3, 2)).T
     half_width, half_height = render.projected(*(frame.vector(c) for c in "AS"), bounds)
@@ -232,10 +231,10 @@ def close_view(surface, frame, size, towards="AAAL", at=(.5, .5, .5), delta=None
 
 
 def contour_on_slice(surface, scan, view, size):
-    """The middle slice with the line where the surface cuts it."""
+    """Return the central slice with the intersection of the surface."""
     image, towards = scan.image, scan.indices.vector(view[0])
     axis = int(np.argmax(np.abs(towards)))
-    # From the world to the coordinates of render.slice_actor.
+    # World coordinates to coordinates of render.slice_actor.
     matrix, scale = vtkMatrix4x4(), vtkMatrix4x4()
     for c, spacing in enumerate(image.GetSpacing()):
         scale.SetElement(c, c, spacing)
@@ -263,7 +262,7 @@ def read(reader, path):
 
 
 def main(path, folder):
-    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # VTK 9.3 logs each cut
+    vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_WARNING)  # VTK 9.3 logs every cut
     def file(name):
         return os.path.join(folder, name)
     with open(file("report.json"), encoding="utf-8") as report:

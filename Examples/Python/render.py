@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Off-screen pictures of surfaces and slices, as numpy arrays [row, column, RGB] from the top.
+"""Off-screen rendering of surfaces and slices to numpy arrays [row, column, RGB], top row first.
 
-draw() renders a panel at twice its size and averages it down, which smooths edges with every
-driver; compose() lays panels out with captions. Rendering needs a display, such as xvfb-run's.
+draw() renders a panel at twice its size and averages pixels, which antialiases with every driver.
+compose() arranges panels with captions. Rendering requires a display, for example by xvfb-run.
 """
 
 import numpy as np
-import vtkmodules.vtkRenderingFreeType  # noqa: F401, the factory of text
-import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, the factory of windows
+import vtkmodules.vtkRenderingFreeType  # noqa: F401, registers text rendering
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401, registers windows
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkIOImage import vtkPNGWriter
@@ -23,16 +23,16 @@ CUT_FACE = (0.72, 0.36, 0.27)
 INK, SOFT_INK = (0.95, 0.95, 0.95), (0.66, 0.69, 0.73)
 OVERSAMPLING = 2
 OPPOSITE = dict(zip("LRAPSI", "RLPAIS"))  # sides of the body
-# Position relative to the camera, intensity, colour: a key light, a weak fill, one from behind.
+# Position relative to the camera, intensity, colour: key light, fill light, back light.
 LIGHTS = (((-0.7, 0.9, 1.2), 0.95, (1.0, 0.985, 0.95)),
           ((1.0, -0.1, 0.9), 0.26, (0.90, 0.95, 1.0)),
           ((0.3, 1.0, -0.6), 0.22, (1.0, 1.0, 1.0)))
 
 
 class Frame:
-    """The directions of left, posterior and superior among three coordinate axes.
+    """Directions of left, posterior and superior in world coordinates.
 
-    axes: the sides that x, y, z point to, such as "RAS"; "" is taken as LPS, that of DICOM.
+    axes: directions of x, y, z, such as "RAS"; "" is LPS, as in DICOM.
     """
 
     def __init__(self, axes=""):
@@ -41,16 +41,16 @@ class Frame:
         for axis, letter in zip(np.eye(3), self.axes):
             self.directions[letter] = axis
             self.directions[OPPOSITE[letter]] = -axis
-        # A renderer shows the mirror image of a left-handed frame.
+        # Renderings of left-handed frames are mirrored.
         self.mirrored = np.linalg.det([self.directions[c] for c in "LPS"]) < 0
 
     def vector(self, letters):
-        """Unit vector towards the letters, weighted by how often each occurs, as in "AAL"."""
+        """Return the unit vector towards letters, weighted by their counts, such as "AAL"."""
         total = sum(self.directions[letter] for letter in letters)
         return total / np.linalg.norm(total)
 
     def of_indices(self, direction):
-        """The frame of index axes, for each that of the nearest world axis."""
+        """Return the frame of the index axes, by the nearest world axes."""
         nearest = np.abs(direction).argmax(axis=0)
         return Frame("".join(self.axes[w] if direction[w, c] > 0 else OPPOSITE[self.axes[w]]
                              for c, w in enumerate(nearest)))
@@ -59,28 +59,28 @@ class Frame:
 # ---- Actors ------------------------------------------------------------------------------------
 
 def surface_actor(surface, color=BONE, edges=False):
-    """Matt actor of polygons; edges draws the sides of the triangles as well."""
+    """Return a matte actor of polygons, optionally with edges."""
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
     mapper.ScalarVisibilityOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
-    look = actor.GetProperty()
-    look.SetColor(color)
-    look.SetInterpolationToPhong()
-    look.SetAmbient(0.14)
-    look.SetDiffuse(0.88)
-    look.SetSpecular(0.12)
-    look.SetSpecularPower(18)
+    style = actor.GetProperty()
+    style.SetColor(color)
+    style.SetInterpolationToPhong()
+    style.SetAmbient(0.14)
+    style.SetDiffuse(0.88)
+    style.SetSpecular(0.12)
+    style.SetSpecularPower(18)
     if edges:
-        look.EdgeVisibilityOn()
-        look.SetEdgeColor(0.16, 0.15, 0.14)
-        look.SetInterpolationToFlat()
+        style.EdgeVisibilityOn()
+        style.SetEdgeColor(0.16, 0.15, 0.14)
+        style.SetInterpolationToFlat()
     return actor
 
 
 def line_actor(lines, color, width):
-    """Unlit lines, as wide as that many pixels of the finished picture."""
+    """Return an actor of unlit lines of this width in pixels of the final picture."""
     actor = surface_actor(lines, color)
     actor.GetProperty().LightingOff()
     actor.GetProperty().SetLineWidth(width * OVERSAMPLING)
@@ -88,9 +88,10 @@ def line_actor(lines, color, width):
 
 
 def slice_actor(image, axis, index, window):
-    """Grey actor of one slice across an index axis; index is counted from the first voxel.
+    """Return a grey actor of a slice across an index axis.
 
-    Coordinates are such indices times the spacing. window: the values shown black and white.
+    Coordinates are indices, counted from the first voxel, times the spacing. window: values shown
+    as black and white.
     """
     plain = vtkImageData()
     plain.ShallowCopy(image)
@@ -111,11 +112,10 @@ def slice_actor(image, axis, index, window):
 # ---- Panels ------------------------------------------------------------------------------------
 
 def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focus=None):
-    """Picture of the actors, size = (width, height) in pixels.
+    """Return a picture of actors, size = (width, height) in pixels.
 
-    look_from and up are letters as Frame.vector takes them. The scale is that of the bounds, not of
-    the actors, so that panels with the same bounds can be compared. focus: the point in the middle,
-    by default that of the bounds.
+    look_from, up: letters for Frame.vector. bounds: determine the scale, so that panels with equal
+    bounds can be compared. focus: centre of the picture (default: centre of the bounds).
     """
     renderer = vtkRenderer()
     renderer.SetBackground(BACKGROUND)
@@ -131,7 +131,7 @@ def draw(actors, size, frame, look_from, up, bounds, zoom=1.0, shaded=True, focu
 
 
 def pixels_of_window(window, size):
-    """What the window shows, at that size in pixels."""
+    """Return the content of a window at this size in pixels."""
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
     window.SetSize(size[0] * OVERSAMPLING, size[1] * OVERSAMPLING)
@@ -147,7 +147,7 @@ def pixels_of_window(window, size):
 
 
 def place_camera(renderer, size, towards, up, bounds, zoom, focus):
-    """Parallel projection in which the bounds fill the picture."""
+    """Set a parallel projection in which the bounds fill the picture."""
     half_width, half_height = projected(towards, up, bounds)
     bounds = np.reshape(bounds, (3, 2))
     centre = bounds.mean(axis=1) if focus is None else np.asarray(focus, float)
@@ -162,7 +162,7 @@ def place_camera(renderer, size, towards, up, bounds, zoom, focus):
 
 
 def projected(towards, up, bounds):
-    """Half width and half height of the bounds as seen from there."""
+    """Return half the width and height of the projected bounds."""
     bounds = np.reshape(bounds, (3, 2))
     up = up - towards * (up @ towards)
     up /= np.linalg.norm(up)
@@ -171,7 +171,7 @@ def projected(towards, up, bounds):
 
 
 def fitting_height(width, frame, views, bounds):
-    """Height in pixels of panels of this width in which each view (look_from, up) fits."""
+    """Return the panel height in pixels at which all views (look_from, up) fit this width."""
     halves = [projected(frame.vector(look_from), frame.vector(up), bounds)
               for look_from, up in views]
     return max(int(np.clip(width * height / half, 0.5 * width, 1.4 * width))
@@ -179,7 +179,7 @@ def fitting_height(width, frame, views, bounds):
 
 
 def add_lights(renderer, radius):
-    """LIGHTS, and occlusion, which darkens hollows and so makes openings and cavities readable."""
+    """Add LIGHTS and ambient occlusion, which darkens openings and cavities."""
     renderer.AutomaticLightCreationOff()
     for position, intensity, color in LIGHTS:
         light = vtkLight()
@@ -199,7 +199,7 @@ def add_lights(renderer, radius):
 
 
 def pixels_of(image):
-    """Array [row, column, channel] of a VTK picture, from the top."""
+    """Return an array [row, column, channel] of a VTK image, top row first."""
     scalars = vtk_to_numpy(image.GetPointData().GetScalars())
     width, height, _ = image.GetDimensions()
     return scalars.reshape(height, width, -1)[::-1]
@@ -208,10 +208,10 @@ def pixels_of(image):
 # ---- Layout ------------------------------------------------------------------------------------
 
 def compose(rows, captions=None, title=None, headings=None, gap=10):
-    """One picture of panels.
+    """Return one picture of panels.
 
-    rows: lists of equally large panels. captions: for each row a list of tuples of lines below the
-    panels, the first line bold. headings: a line above each row.
+    rows: lists of panels of equal size. captions: for each row, a list of tuples of lines, the
+    first one bold. headings: a line above each row.
     """
     width = rows[0][0].shape[1]
     total = max(map(len, rows)) * (width + gap) + gap
@@ -238,12 +238,11 @@ def compose(rows, captions=None, title=None, headings=None, gap=10):
 
 
 def blank(height, width):
-    """Background."""
     return np.full((height, width, 3), np.round(np.array(BACKGROUND) * 255), np.uint8)
 
 
 def line_strip(entries, width, size, centred=False):
-    """Texts on one line; entries: (position from the left, text, bold, colour)."""
+    """Return texts on one line. entries: (position from the left, text, bold, colour)."""
     strip = blank(int(size * 1.6), width)
     for position, text, bold, color in entries:
         picture = text_picture(text, size, color, bold)
@@ -255,21 +254,20 @@ def line_strip(entries, width, size, centred=False):
 
 
 def text_picture(text, size, color, bold):
-    """One line of text on the background, as large as it needs to be."""
-    look = vtkTextProperty()
-    look.SetFontFamilyToArial()
-    look.SetFontSize(size)
-    look.SetBold(bold)
-    look.SetColor(color)
-    look.SetBackgroundColor(BACKGROUND)
-    look.SetBackgroundOpacity(1)
+    """Return one line of text on the background, cropped."""
+    style = vtkTextProperty()
+    style.SetFontFamilyToArial()
+    style.SetFontSize(size)
+    style.SetBold(bold)
+    style.SetColor(color)
+    style.SetBackgroundColor(BACKGROUND)
+    style.SetBackgroundOpacity(1)
     image, extent = vtkImageData(), [0, 0]
-    vtkTextRenderer.GetInstance().RenderString(look, text, image, extent, 72)
+    vtkTextRenderer.GetInstance().RenderString(style, text, image, extent, 72)
     return pixels_of(image)[-extent[1]:, :extent[0], :3]
 
 
 def image_of(pixels):
-    """The vtkImageData of a picture."""
     image = vtkImageData()
     image.SetDimensions(pixels.shape[1], pixels.shape[0], 1)
     image.GetPointData().SetScalars(numpy_to_vtk(pixels[::-1].reshape(-1, 3), deep=True))
@@ -277,7 +275,7 @@ def image_of(pixels):
 
 
 def write_png(pixels, path):
-    """OSError where the file cannot be written."""
+    """Write a picture. Raise OSError if it cannot be written."""
     writer = vtkPNGWriter()
     writer.WriteToMemoryOn()
     writer.SetCompressionLevel(9)

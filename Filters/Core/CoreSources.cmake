@@ -9,7 +9,7 @@ set(volumic_core_sources
   Common/Executor.cxx
   Common/FreeMemory.cxx
   Common/ScratchMemory.cxx
-  Common/VisitSchedule.cxx
+  Common/BlockSchedule.cxx
   Image/AxisOperator.cxx
   Image/EdgeAttraction.cxx
   Image/Field.cxx
@@ -23,10 +23,10 @@ set(volumic_core_sources
   Labels/LabelBricks.cxx
   Labels/LabelDistance.cxx
   Labels/LabelField.cxx
-  Labels/LabelHold.cxx
+  Labels/LabelConstraints.cxx
   Labels/LabelMap.cxx
   Labels/LabelSides.cxx
-  Labels/MapBeyond.cxx
+  Labels/LabelMapPadding.cxx
   Labels/SmallParts.cxx
   Mesh/CycleCut.cxx
   Mesh/Division.cxx
@@ -60,10 +60,10 @@ set(volumic_core_sources
   Interfaces/InterfaceRemesher.cxx
   Interfaces/InterfaceSizes.cxx
   Interfaces/InterfaceStart.cxx
-  Interfaces/LineWedges.cxx
+  Interfaces/JunctionWedges.cxx
   Interfaces/MakeInterfaces.cxx
   Interfaces/MismatchedVoxels.cxx
-  Interfaces/NarrowPlaces.cxx
+  Interfaces/NearDegenerateRegions.cxx
   Interfaces/PeriodicImages.cxx
   Interfaces/VertexTargets.cxx
   Surface/ComponentWatch.cxx
@@ -79,7 +79,7 @@ set(volumic_core_sources
   Surface/SurfaceBlocks.cxx
   Surface/SurfaceComponents.cxx
   Surface/SurfaceEditor.cxx
-  Surface/SurfacePolish.cxx
+  Surface/SurfaceOptimization.cxx
   Surface/SurfaceState.cxx
   Surface/TopologyEdits.cxx
   Evolution/Dynamics.cxx
@@ -89,14 +89,14 @@ set(volumic_core_sources
   Evolution/EvolutionHistory.cxx
   Evolution/EvolutionRun.cxx
   Evolution/EvolutionStart.cxx
-  Evolution/EvolutionVisits.cxx
-  Evolution/GivenSurface.cxx
+  Evolution/EvolutionPasses.cxx
+  Evolution/InitialSurfaceCheck.cxx
   Evolution/GradedSizes.cxx
   Evolution/InitialSurface.cxx
   Evolution/LatticeSurface.cxx
-  Evolution/LostBoundary.cxx
-  Evolution/LostParts.cxx
-  Evolution/LostVoxels.cxx
+  Evolution/MissedBoundary.cxx
+  Evolution/MissedParts.cxx
+  Evolution/MissedVoxels.cxx
   Evolution/SlabSearch.cxx
   Evolution/SurfaceEvolution.cxx
   Evolution/SurfaceIteration.cxx

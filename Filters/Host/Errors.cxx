@@ -15,10 +15,10 @@
 namespace volumic
 {
 unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
-  const std::string& place, const std::function<std::string()>& aboutMemory,
+  const std::string& prefix, const std::function<std::string()>& memoryMessage,
   const std::function<void()>& work)
 {
-  // ParaView leaves the flag of an earlier run as it is.
+  // ParaView does not reset the flag of an earlier run.
   ForgetAbort(filter);
   unsigned long code = vtkErrorCode::NoError;
   std::string text;
@@ -29,12 +29,12 @@ unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
   catch (const std::bad_alloc&)
   {
     code = vtkErrorCode::UnknownError;
-    text = aboutMemory();
+    text = memoryMessage();
   }
-  catch (const Refusal& refused)
+  catch (const InvalidArgument& invalid)
   {
     code = vtkErrorCode::UserError;
-    text = refused.what();
+    text = invalid.what();
   }
   catch (const std::exception& other)
   {
@@ -50,7 +50,7 @@ unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
         output->Initialize();
       }
     }
-    vtkErrorWithObjectMacro(filter, << place << text);
+    vtkErrorWithObjectMacro(filter, << prefix << text);
   }
   ForgetAbort(filter);
   return code;

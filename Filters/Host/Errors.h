@@ -3,7 +3,7 @@
 #ifndef volumicErrors_h
 #define volumicErrors_h
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <functional>
 #include <string>
@@ -14,34 +14,34 @@ class vtkInformationVector;
 namespace volumic
 {
 /**
- * Execute the work of RequestData, and report an exception as an error of the filter. All outputs
- * are then initialized, without partial data and without the field data of the input.
+ * Execute the work of RequestData(). Report an exception as an error of the filter, and initialize
+ * all outputs.
  *
- * RequestData must return 1 after an error, too. After 0 the pipeline prints a second error, and
- * the clients of ParaView keep the data of the run before.
- * @param place       prefix of the message
- * @param aboutMemory returns the message for std::bad_alloc
- * @return the code for SetErrorCode(): vtkErrorCode::NoError, UserError for a Refusal (invalid
- *         input or property), UnknownError for other exceptions
+ * RequestData() must return 1 also after an error. After 0 the pipeline reports a second error, and
+ * ParaView's clients keep the data of the last run.
+ * @param prefix        prefix of the message
+ * @param memoryMessage returns the message for std::bad_alloc
+ * @return the code for SetErrorCode(): vtkErrorCode::NoError, UserError for InvalidArgument,
+ *   UnknownError for other exceptions
  */
 unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
-  const std::string& place, const std::function<std::string()>& aboutMemory,
+  const std::string& prefix, const std::function<std::string()>& memoryMessage,
   const std::function<void()>& work);
 
 /**
- * Return the result of the work. A Refusal gets the place as the prefix of its message, such as
- * `Input port 0: `. Other exceptions are not changed.
+ * Return the result of the work. Prefix the message of an InvalidArgument that it throws, such as
+ * with `Input port 0: `.
  */
 template <typename Work>
-auto PrefixErrors(const std::string& place, const Work& work) -> decltype(work())
+auto PrefixErrors(const std::string& prefix, const Work& work) -> decltype(work())
 {
   try
   {
     return work();
   }
-  catch (const Refusal& error)
+  catch (const InvalidArgument& error)
   {
-    Refuse(place, error.what());
+    ThrowInvalidArgument(prefix, error.what());
   }
 }
 }

@@ -20,18 +20,19 @@ namespace volumic
 {
 namespace
 {
-int NumberOf(int wanted)
+int NumberOf(int requested)
 {
   int number = NumberOfProcessors();
-  if (wanted > 0)
+  if (requested > 0)
   {
-    return std::min(number, wanted);
+    return std::min(number, requested);
   }
-  const auto limit = [&number](int most) { number = most > 0 ? std::min(number, most) : number; };
+  const auto limit = [&number](int maximum)
+  { number = maximum > 0 ? std::min(number, maximum) : number; };
   limit(QuotaOfProcessors());
-  const char* most = std::getenv("VTK_SMP_MAX_THREADS");
-  limit(most ? std::atoi(most) : 0);
-  // One thread is what is left of VTK, not what the host wants.
+  const char* maximum = std::getenv("VTK_SMP_MAX_THREADS");
+  limit(maximum ? std::atoi(maximum) : 0);
+  // The sequential backend always reports one thread, which is not a choice of the host.
   if (std::string(vtkSMPTools::GetBackend()) != "Sequential")
   {
     limit(vtkSMPTools::GetEstimatedNumberOfThreads());
@@ -44,7 +45,7 @@ HostThreads::HostThreads(int numberOfThreads) : Executor(NumberOf(numberOfThread
 
 namespace
 {
-/** Of one group; 0: it has none. "max" and -1, which stand for no limit, are no numbers above 0. */
+/** Return the quota of a group, or 0 for none ("max" and -1). */
 int QuotaOfFolder(const std::string& folder)
 {
   double quota = 0.;
@@ -61,7 +62,7 @@ int QuotaOfFolder(const std::string& folder)
 int NumberOfProcessors()
 {
 #ifdef __linux__
-  std::array<cpu_set_t, 16> set; // One may be too small for a machine's processors.
+  std::array<cpu_set_t, 16> set; // One set has room for 1024 processors.
   if (sched_getaffinity(0, sizeof(set), set.data()) == 0)
   {
     return std::max(CPU_COUNT_S(sizeof(set), set.data()), 1);
@@ -74,20 +75,20 @@ int QuotaOfProcessors(const std::string& root)
 {
   int least = 0;
   std::ifstream groups(root + "/proc/self/cgroup");
-  // As "0::/a/b" (version 2) or "4:cpu,cpuacct:/a/b".
+  // Lines are "0::/a/b" (version 2) or "4:cpu,cpuacct:/a/b" (version 1).
   std::string number;
   std::string controllers;
   std::string group;
   while (std::getline(groups, number, ':') && std::getline(groups, controllers, ':') &&
     std::getline(groups, group))
   {
-    const bool isOfAll = controllers.empty();
-    if (!isOfAll && ("," + controllers + ",").find(",cpu,") == std::string::npos)
+    const bool isVersion2 = controllers.empty();
+    if (!isVersion2 && ("," + controllers + ",").find(",cpu,") == std::string::npos)
     {
       continue;
     }
-    const std::string mount = root + (isOfAll ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu");
-    // What a group may take holds for those within it. In a container its own is the outermost one.
+    const std::string mount = root + (isVersion2 ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu");
+    // The quota of a group limits its subgroups. In a container its own group is the outermost.
     while (true)
     {
       const int quota = QuotaOfFolder(mount + group);

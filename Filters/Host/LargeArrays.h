@@ -14,24 +14,24 @@
 #include <cstddef>
 #include <cstring>
 
-/** What the filters' deprecated property MemoryLimit warns of. */
-#define VOLUMIC_ABOUT_MEMORY                                                                       \
-  "Set ScratchDirectory to a folder on a disk, where large arrays are then mapped from files, and " \
-  "limit the memory of the process by its cgroup, as with `systemd-run --user --scope -p "          \
-  "MemoryMax=2G`."
+/** The warning of the filters' deprecated property MemoryLimit. */
+#define VOLUMIC_MEMORY_LIMIT_WARNING                                                        \
+  "Set ScratchDirectory to a folder on a disk, and limit the memory of the process by its " \
+  "cgroup, "                                                                                \
+  "as with `systemd-run --user --scope -p MemoryMax=2G`."
 
 namespace volumic
 {
 /**
- * A VTK array (vtkFloatArray, ...) whose values are allocated by AllocateLarge() and not set.
- * @throws std::bad_alloc, ScratchFull.
+ * Return a VTK array with uninitialized values, which AllocateLarge() has allocated.
+ * @throws std::bad_alloc, ScratchFull
  */
 template <typename Array>
 vtkSmartPointer<Array> NewLargeArray(std::size_t tuples, int components = 1)
 {
   using Value = typename Array::ValueType;
   const std::size_t n = tuples * static_cast<std::size_t>(components);
-  // The number of bytes comes first: the free function gets the address only.
+  // The header holds the number of bytes, as the free function receives the address only.
   constexpr std::size_t header = 64;
   const std::size_t bytes = header + n * sizeof(Value);
   char* memory = static_cast<char*>(AllocateLarge(bytes));

@@ -23,35 +23,34 @@
 namespace volumic
 {
 /** Return the information of the requested output, with the piece of the update request. */
-inline vtkInformation* AskedOutput(vtkInformation* request, vtkInformationVector* outputs)
+inline vtkInformation* RequestedOutput(vtkInformation* request, vtkInformationVector* outputs)
 {
   return outputs->GetInformationObject(std::max(0, request->Get(vtkExecutive::FROM_OUTPUT_PORT())));
 }
 
 /**
- * Return whether this is the first process of a parallel run, or the only one. It makes the whole
- * output, and the outputs of all others are empty. Some filters (vtkCleanPolyData) request piece 0
- * of 0 in the other processes.
+ * Return whether this is the first process of a parallel run, or the only one. It computes the
+ * whole output. Some filters (vtkCleanPolyData) request piece 0 of 0 in the other processes.
  */
 inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
-  vtkInformation* info = AskedOutput(request, outputs);
+  vtkInformation* info = RequestedOutput(request, outputs);
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const bool isOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
+  const bool isPieceOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
     info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
-  return !isOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
+  return !isPieceOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
 /** Return whether the run is not parallel. */
 inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
-  return AskedOutput(request, outputs)
+  return RequestedOutput(request, outputs)
            ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) <= 1;
 }
 
 /**
- * Return whether data come from Resample To Image. Its processes share the work: it ends them all
- * unless they request the same extent.
+ * Return whether the data come from Resample To Image. All processes must request the same extent
+ * from this filter, or it terminates them.
  */
 inline bool IsResampled(vtkAlgorithm* source)
 {
@@ -67,9 +66,9 @@ inline bool IsResampled(vtkAlgorithm* source)
 }
 
 /**
- * RequestUpdateExtent of the filters: the first process requests the whole of all inputs. The others
- * request no voxels of images, unless these are resampled. Of data without a whole extent, such as
- * surfaces, they request the piece of their own number, which is small.
+ * Implement RequestUpdateExtent() of the filters. The first process requests the whole of all
+ * inputs. The others request empty images, unless these are resampled. They request their own piece
+ * of data without a whole extent, such as surfaces, which is small.
  * @param all whether all processes request the whole
  */
 inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
@@ -100,10 +99,7 @@ inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
   }
 }
 
-/**
- * Make null blocks of these names. ParaView's views and writers need the same blocks in all
- * processes.
- */
+/** Make named null blocks. ParaView's views and writers need the same blocks in all processes. */
 inline void MakeNullBlocks(vtkMultiBlockDataSet* output, const std::vector<std::string>& names)
 {
   output->SetNumberOfBlocks(static_cast<unsigned int>(names.size()));
@@ -113,7 +109,7 @@ inline void MakeNullBlocks(vtkMultiBlockDataSet* output, const std::vector<std::
   }
 }
 
-/** Whether the data that come to a port are released once they have been used. */
+/** Return whether the input data of a port are released after use. */
 inline bool AreReleased(vtkAlgorithm* filter, int port)
 {
   for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
@@ -127,11 +123,11 @@ inline bool AreReleased(vtkAlgorithm* filter, int port)
   return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
 }
 
-// What differs between VTK 9.1, ParaView 5.11's VTK 9.2 and newer ones.
+// The next two functions depend on the version of VTK: 9.1, 9.2 (ParaView 5.11) and newer.
 
 /**
- * Has someone asked the filter to stop? Newer VTKs can also be asked through other filters. The
- * filter's own flag comes first: after CheckAbort() says yes, the executive empties the outputs.
+ * Return whether the filter must stop. In newer versions of VTK other filters can abort it, too.
+ * Test the filter's own flag first: the executive clears the outputs if CheckAbort() returns true.
  */
 inline bool IsAbortRequested(vtkAlgorithm* algorithm)
 {
@@ -143,9 +139,8 @@ inline bool IsAbortRequested(vtkAlgorithm* algorithm)
 }
 
 /**
- * Takes back a request to stop: from VTK 9.2 on nobody else does. One that came before a run isn't
- * meant for it; and one that was obeyed would make filters behind this one stop as well, with
- * nothing.
+ * Reset AbortExecute, which VTK does not do from 9.2 on. A request from before a run must not stop
+ * it, and a request that stopped it must not stop the filters downstream.
  */
 inline void ForgetAbort(vtkAlgorithm* algorithm)
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Host/RunObserver.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Pipeline.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace volumic
 {
 namespace
 {
-/** Blocks from which on a sweep may take so long that one wants to know how far it is. */
+/** Sweeps of at least this number of blocks may take long, so progress names the block. */
 constexpr int ManyBlocks = 500;
 
 std::string BlocksOf(const Monitor::Status& status)
@@ -29,40 +29,39 @@ std::string TextOf(const Monitor::Status& status)
     case Monitor::Activity::Starting:
       return "start";
     case Monitor::Activity::Dividing:
-      return "division";
+      return "subdivision";
     case Monitor::Activity::Recovering:
-      return "search for lost parts";
+      return "recovery";
     case Monitor::Activity::Iterating:
       return Join("iteration ", status.Iteration, BlocksOf(status));
     default:
-      return "regularisation" + BlocksOf(status);
+      return "optimization" + BlocksOf(status);
   }
 }
 }
 
-RunObserver::RunObserver(
-  vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings)
-  : Filter(filter), TimeLimit(timeLimit), Untold(warnings)
+RunObserver::RunObserver(vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings)
+  : Filter(filter), TimeLimit(timeLimit), PendingWarnings(warnings)
 {
   if (!(timeLimit >= 0.0))
   {
-    Refuse("Time Limit is ", timeLimit, "; it must be 0 (none) or more.");
+    ThrowInvalidArgument("Time Limit is ", timeLimit, ". Set it to 0 (none) or more seconds.");
   }
 }
 
-bool RunObserver::GoOn(double share, const std::string& text)
+bool RunObserver::ReportProgress(double fraction, const std::string& text)
 {
   this->Filter->SetProgressText(text.c_str());
-  this->Filter->UpdateProgress(share);
+  this->Filter->UpdateProgress(fraction);
   return !this->IsStopped();
 }
 
 bool RunObserver::IsStopped()
 {
   this->IsAborted = this->IsAborted || IsAbortRequested(this->Filter);
-  const std::chrono::duration<double> taken = Clock::now() - this->Started;
+  const std::chrono::duration<double> elapsed = Clock::now() - this->Started;
   this->IsOutOfTime = this->IsOutOfTime ||
-    (!this->IsAborted && this->TimeLimit > 0.0 && taken.count() >= this->TimeLimit);
+    (!this->IsAborted && this->TimeLimit > 0.0 && elapsed.count() >= this->TimeLimit);
   return this->IsAborted || this->IsOutOfTime;
 }
 
@@ -74,9 +73,10 @@ std::string RunObserver::StopReason() const
 void RunObserver::Warn(const std::string& text)
 {
   if (!text.empty() &&
-    std::find(this->Untold.begin(), this->Untold.end(), text) == this->Untold.end())
+    std::find(this->PendingWarnings.begin(), this->PendingWarnings.end(), text) ==
+      this->PendingWarnings.end())
   {
-    this->Untold.push_back(text);
+    this->PendingWarnings.push_back(text);
   }
 }
 
@@ -88,7 +88,7 @@ bool LevelMonitor::GoOn(const Status& status)
 
 bool LevelMonitor::BeginLevel(int level)
 {
-  // A user who stops at the name of a level expects the surface of that level.
+  // Name the finished level, as a user who cancels here gets its surface.
   return this->Report(level, 0.0,
     level == this->Coarsest ? Join("Level ", level, ", voxels")
                             : Join("Level ", level + 1, " is done"));
@@ -105,6 +105,6 @@ bool LevelMonitor::Report(int level, double fraction, const std::string& text)
     total += weight;
   }
   done += std::pow(3.0, this->Coarsest - level) * std::clamp(fraction, 0.0, 1.0);
-  return this->Observer.GoOn(this->Before + (1.0 - this->Before) * done / total, text);
+  return this->Observer.ReportProgress(this->Before + (1.0 - this->Before) * done / total, text);
 }
 }

@@ -14,12 +14,12 @@ class vtkAlgorithm;
 
 namespace volumic
 {
-/** Report the finished share of the work, in [0, 1], and its current step. Return false to stop. */
-using Progress = std::function<bool(double share, const std::string& text)>;
+/** Report the finished fraction of the work, in [0, 1], and its step. Return false to stop. */
+using Progress = std::function<bool(double fraction, const std::string& text)>;
 
 /**
- * Observes a run for its filter. All progress and all warnings of a run pass through it. It stops
- * the run if the filter is aborted or the time limit is exceeded.
+ * Observer of a run. It forwards progress to the filter, collects warnings, and stops the run if
+ * the filter is aborted or the time limit is exceeded.
  */
 class RunObserver
 {
@@ -28,15 +28,15 @@ public:
 
   /**
    * Start the clock of the run.
-   * @param timeLimit in seconds, from now on (0: none)
+   * @param timeLimit seconds, 0 for none
    * @param warnings  receives the texts of Warn()
-   * @throws Refusal if the limit is negative or NaN
+   * @throws InvalidArgument if the limit is negative or NaN
    */
   RunObserver(vtkAlgorithm* filter, double timeLimit, std::vector<std::string>& warnings);
 
-  /** Set the progress of the filter. Return false if the run must stop, from then on always. */
-  bool GoOn(double share, const std::string& text);
-  /** Return whether the run must stop. */
+  /** Set the progress of the filter. Return false if the run must stop. */
+  bool ReportProgress(double fraction, const std::string& text);
+  /** Return whether the run must stop. Once it is true, it remains true. */
   bool IsStopped();
   /** Return the `StopReason` of a stopped run: "time limit" or "cancelled". */
   std::string StopReason() const;
@@ -44,8 +44,8 @@ public:
   Clock::time_point Start() const { return this->Started; }
 
   /**
-   * Collect a warning for the end of the run: ParaView's message box would cover the progress bar.
-   * Empty texts and repeated ones are ignored.
+   * Add a warning to report after the run, as ParaView's message box would cover the progress bar.
+   * Ignore empty and repeated texts.
    */
   void Warn(const std::string& text);
 
@@ -55,17 +55,17 @@ private:
   Clock::time_point Started = Clock::now();
   bool IsAborted = false;
   bool IsOutOfTime = false;
-  std::vector<std::string>& Untold;
+  std::vector<std::string>& PendingWarnings;
 };
 
-/** Reports the progress of the core on the levels to an observer. The share never decreases. */
+/** Monitor that reports the progress on the levels to an observer. It never decreases. */
 class LevelMonitor final : public Monitor
 {
 public:
   /**
-   * Monitor the levels from `coarsest` to `finest`. Each takes about three times the work of the
-   * next coarser level, as it has three times the vertices.
-   * @param before share of the work before the first of these levels
+   * Monitor the levels from `coarsest` to `finest`. A level has about three times the vertices of
+   * the next coarser level, and takes about three times as long.
+   * @param before fraction of the work before the first of these levels
    */
   LevelMonitor(RunObserver& observer, double before, int coarsest, int finest)
     : Observer(observer), Before(before), Coarsest(coarsest), Finest(finest)
@@ -78,7 +78,7 @@ public:
   bool BeginLevel(int level);
 
   /** Add the levels down to `finest`. */
-  void GoOnTo(int finest) { this->Finest = finest; }
+  void ContinueAtLevel(int finest) { this->Finest = finest; }
 
 private:
   bool Report(int level, double fraction, const std::string& text);

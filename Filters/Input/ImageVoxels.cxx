@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/ImageVoxels.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/LargeArrays.h"
 
 #include <vtkAbstractArray.h>
@@ -30,7 +30,7 @@ std::string Quote(const char* name)
   return name ? "'" + std::string(name) + "'" : std::string("without a name");
 }
 
-/** `it has 'a' and 'b'`, so that a user sees what could have been chosen. */
+/** Return `its point arrays are 'a', 'b'`. */
 std::string ArraysOf(vtkImageData* image)
 {
   std::string text;
@@ -46,12 +46,12 @@ std::string ArraysOf(vtkImageData* image)
   }
   if (cells->GetNumberOfArrays() > 0)
   {
-    text += "; it has cell data, which the filter Cell Data to Point Data turns into point data";
+    text += "; it also has cell data, which Cell Data to Point Data converts";
   }
   return text;
 }
 
-/** A value for each tuple, of which `valueOf` is given the first component. */
+/** Return valueOf(tuple) for each tuple. A tuple is a pointer to its first component. */
 template <typename Array, typename ValueOf>
 vtkSmartPointer<vtkDataArray> Compute(
   vtkDataArray* tuples, Executor& threads, const ValueOf& valueOf)
@@ -77,7 +77,7 @@ vtkSmartPointer<vtkDataArray> Compute(
   return computed;
 }
 
-/** The same as float, or as double where the type has more digits than float. */
+/** Compute floats, or doubles if the type of the tuples has more digits than float. */
 template <typename ValueOf>
 vtkSmartPointer<vtkDataArray> ComputeReal(
   vtkDataArray* tuples, Executor& threads, const ValueOf& valueOf)
@@ -90,12 +90,12 @@ vtkSmartPointer<vtkDataArray> ComputeReal(
 
 std::string ChosenName(vtkInformation* selection)
 {
-  // A ParaView script that never saw the data chooses the array without a name.
+  // A ParaView script that has not read the data selects an array without a name.
   const char* name = selection->Get(vtkDataObject::FIELD_NAME());
   return name ? name : "";
 }
 
-bool FloatHolds(double smallest, double largest)
+bool FitsFloat(double smallest, double largest)
 {
   const double size = std::max(std::abs(smallest), std::abs(largest));
   constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
@@ -125,42 +125,42 @@ vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image)
 {
   if (image->GetNumberOfPoints() == 0)
   {
-    Refuse("the image is empty: it has " + SizeOf(image) + " voxels.");
+    ThrowInvalidArgument(
+      "the image is empty: it has " + SizeOf(image) + " voxels. Load an image with voxels.");
   }
-  // What is not set is 0: points, and scalars.
+  // Keys that are not set are 0: points and scalars.
   const std::string name = ChosenName(selection);
   const int association = selection->Get(vtkDataObject::FIELD_ASSOCIATION());
   if (association == vtkDataObject::FIELD_ASSOCIATION_CELLS ||
     association == vtkDataObject::FIELD_ASSOCIATION_NONE)
   {
-    Refuse("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
-      "is not point data; voxels are points. Apply Cell Data to Point Data, or choose a point "
-      "array: ",
+    ThrowInvalidArgument("the chosen array ", name.empty() ? name : Quote(name.c_str()) + " ",
+      "is not point data. Apply Cell Data to Point Data, or choose a point array: ",
       ArraysOf(image), ".");
   }
-  vtkAbstractArray* found = name.empty()
-    ? image->GetPointData()->GetAbstractAttribute(
-        selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
-    : image->GetPointData()->GetAbstractArray(name.c_str());
+  vtkAbstractArray* found = name.empty() ? image->GetPointData()->GetAbstractAttribute(
+                                             selection->Get(vtkDataObject::FIELD_ATTRIBUTE_TYPE()))
+                                         : image->GetPointData()->GetAbstractArray(name.c_str());
   if (!found && name.empty())
   {
-    Refuse("the image has no active point scalars; ", ArraysOf(image),
+    ThrowInvalidArgument("the image has no active point scalars; ", ArraysOf(image),
       ". Choose one as Voxels (SetInputArrayToProcess).");
   }
   if (!found)
   {
-    Refuse("the image has no point array ", Quote(name.c_str()), "; ", ArraysOf(image), ".");
+    ThrowInvalidArgument("the image has no point array ", Quote(name.c_str()),
+      ". Choose another array: ", ArraysOf(image), ".");
   }
   auto* array = vtkDataArray::SafeDownCast(found);
   if (!array)
   {
-    Refuse("array " + Quote(found->GetName()) + " holds " + found->GetDataTypeAsString() +
-      "s, not numbers; choose another one: " + ArraysOf(image) + ".");
+    ThrowInvalidArgument("array " + Quote(found->GetName()) + " has the type " +
+      found->GetDataTypeAsString() + ". Choose a numeric array: " + ArraysOf(image) + ".");
   }
   if (array->GetNumberOfTuples() != image->GetNumberOfPoints())
   {
-    Refuse(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
-      " values, but the image has " + SizeOf(image) + " voxels.");
+    ThrowInvalidArgument(NameOf(array) + " has " + std::to_string(array->GetNumberOfTuples()) +
+      " values, but the image has " + SizeOf(image) + " voxels. Provide a value for each voxel.");
   }
   return array;
 }
@@ -170,9 +170,9 @@ vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image)
   vtkDataArray* array = ChooseArray(selection, image);
   if (array->GetNumberOfComponents() != 1)
   {
-    Refuse(NameOf(array), " has ", array->GetNumberOfComponents(),
-      " components; levels of a pyramid and maps of edges have one. Image Pyramid makes the levels "
-      "of one component or of the magnitude (Selected Component).");
+    ThrowInvalidArgument(NameOf(array), " has ", array->GetNumberOfComponents(),
+      " components; levels of a pyramid and edge maps must have one. Compute the levels by Image "
+      "Pyramid, which selects a component or the magnitude (Selected Component).");
   }
   return array;
 }
@@ -182,10 +182,10 @@ vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component
   const int count = array->GetNumberOfComponents();
   if (count < 1 || component < -1 || component >= count)
   {
-    Refuse("Selected Component is ", component, ", but ", NameOf(array), " has ", count,
-      " component", count == 1 ? "" : "s",
-      count > 1 ? Join("; it must be 0 to ", count - 1, ", or -1 for the magnitude.")
-                : std::string("; it must be 0, or -1."));
+    ThrowInvalidArgument("Selected Component is ", component, ", but ", NameOf(array), " has ",
+      count, " component", count == 1 ? "" : "s",
+      count > 1 ? Join(". Set it to 0 to ", count - 1, ", or to -1 for the magnitude.")
+                : std::string(". Set it to 0 or -1."));
   }
   if (count == 1)
   {
@@ -249,15 +249,15 @@ void ValueRange::Check() const
   }
   if (!std::isfinite(this->Lower))
   {
-    Refuse("Upper Value is ", this->Upper, ", but Iso Value is ",
+    ThrowInvalidArgument("Upper Value is ", this->Upper, ", but Iso Value is ",
       std::isnan(this->Lower) ? std::string("not set") : Join(this->Lower),
-      "; set it to the least value of the object. For all that is below a value set Iso Value to "
-      "that and switch Object Is Bright off.");
+      ". Set Iso Value to the smallest value of the object. For an object below one value, set Iso "
+      "Value to this value, remove Upper Value, and switch Object Is Bright off.");
   }
   if (!(this->Lower < this->Upper))
   {
-    Refuse("Upper Value is ", this->Upper, ", but Iso Value is ", this->Lower,
-      "; it must be more: the object has the values between the two.");
+    ThrowInvalidArgument("Upper Value is ", this->Upper, ", but Iso Value is ", this->Lower,
+      ". Set Upper Value to more than Iso Value: the object has the values between the two.");
   }
 }
 
@@ -269,7 +269,7 @@ vtkSmartPointer<vtkDataArray> FoldVoxels(
     [sum](const auto* voxel)
     {
       const auto value = static_cast<double>(*voxel);
-      // In this order NaN stays NaN, and an infinite voxel infinite.
+      // In this order NaN stays NaN, and an infinite voxel stays infinite.
       return std::min(value, sum - value);
     });
 }

@@ -15,27 +15,27 @@
 class vtkImageData;
 class vtkInformation;
 
-// Arrays of images as voxels. Errors are a Refusal naming the array and how to fix it.
+// Arrays of images as voxels. The messages of InvalidArgument name the array and how to fix it.
 
 namespace volumic
 {
-/** Return the name of the selected array; empty: none, as for the active scalars. */
+/** Return the name of the selected array, or an empty string for the active scalars. */
 std::string ChosenName(vtkInformation* selection);
 
 /**
  * Return the selected array of voxels.
  * @param selection GetInputArrayInformation(0) of the filter
- * @throws Refusal if it is not numeric point data with a value for every voxel
+ * @throws InvalidArgument if it is not numeric point data with a value for every voxel
  */
 vtkDataArray* ChooseArray(vtkInformation* selection, vtkImageData* image);
 
-/** The same. @throws Refusal also if it has several components */
+/** Return the selected array. @throws InvalidArgument also if it has several components */
 vtkDataArray* ChooseVoxels(vtkInformation* selection, vtkImageData* image);
 
 /**
- * Return the array itself if it has one component. Else return a copy of a component, or, for -1, the
- * magnitude of all as real numbers, with the same name.
- * @throws Refusal if there is no such component
+ * Return the array itself if it has one component. Otherwise return a copy of a component, or, for
+ * -1, the magnitude of all as floating-point numbers. The name stays the same.
+ * @throws InvalidArgument if there is no such component
  */
 vtkSmartPointer<vtkDataArray> SelectComponent(vtkDataArray* array, int component);
 
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkImageData> WithVoxels(vtkImageData* image, vtkDataArray* voxe
 /** Return the values contiguous in memory: the array itself if it is contiguous. */
 vtkSmartPointer<vtkDataArray> ContiguousVoxels(vtkDataArray* voxels);
 
-/** Calls `work` with the voxels, contiguous in memory, in the type that they have. */
+/** Call `work` with a pointer to the voxels, which must be contiguous in memory. */
 template <typename Work>
 void VisitVoxels(vtkDataArray* voxels, const Work& work)
 {
@@ -55,26 +55,26 @@ void VisitVoxels(vtkDataArray* voxels, const Work& work)
   }
 }
 
-/** Return whether rounding to float changes differences by less than 1e-5 of the range. */
-bool FloatHolds(double smallest, double largest);
+/** Return whether the error of rounding to float is at most 1e-5 of the range. */
+bool FitsFloat(double smallest, double largest);
 
-/** `array 'name'`, for messages. */
+/** Return `array 'name'`, for messages. */
 std::string NameOf(vtkDataArray* array);
 
 /** Return the world coordinates of the first voxel. */
 Point FirstVoxelOf(vtkImageData* image);
 
-/** `256 x 256 x 108`, for messages. */
+/** Return `256 x 256 x 108`, for messages. */
 std::string SizeOf(vtkImageData* image);
 
-/** The values of an object that is neither all above nor all below one: Lower < image < Upper. */
+/** The values of an object: Lower < image < Upper. */
 struct ValueRange
 {
   double Lower = 0.0;
-  double Upper = std::numeric_limits<double>::infinity(); ///< infinite: Lower alone parts it
+  double Upper = std::numeric_limits<double>::infinity(); ///< infinite: not used
 
   bool IsUsed() const { return this->Upper != std::numeric_limits<double>::infinity(); }
-  /** @throws std::invalid_argument naming Iso Value, Upper Value and what they are. */
+  /** @throws InvalidArgument if it is used, unless Lower is finite and less than Upper */
   void Check() const;
 };
 

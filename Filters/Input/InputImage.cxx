@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/InputImage.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Input/ImageVoxels.h"
 
 #include <vtkCellData.h>
@@ -27,69 +27,69 @@
 
 namespace volumic
 {
-void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
+void CheckGeometry(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h)
 {
-  const auto refuse = [h](const auto&... parts)
-  { Refuse("block ", h, " is not a level of a pyramid: ", parts..., LevelsWayOut); };
+  const auto fail = [h](const auto&... parts)
+  { ThrowInvalidArgument("block ", h, " is not a level of a pyramid: ", parts..., LevelsAdvice); };
   const Point first0 = FirstVoxelOf(level0);
   const Point first = FirstVoxelOf(image);
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double real0 = level0->GetSpacing()[axis] * level0->GetDimensions()[axis];
-    const double real = image->GetSpacing()[axis] * image->GetDimensions()[axis];
-    const double tolerance = 1e-5 * std::abs(real0);
-    if (std::abs(real - real0) > tolerance)
+    const double length0 = level0->GetSpacing()[axis] * level0->GetDimensions()[axis];
+    const double length = image->GetSpacing()[axis] * image->GetDimensions()[axis];
+    const double tolerance = 1e-5 * std::abs(length0);
+    if (std::abs(length - length0) > tolerance)
     {
-      refuse("its real size along ", "xyz"[axis], " is ", real, ", that of block 0 is ", real0, ".");
+      fail("its length along ", "xyz"[axis], " is ", length, ", but the length of block 0 is ",
+        length0, ".");
     }
     if (std::abs(first[axis] - first0[axis]) > tolerance)
     {
-      refuse("its first voxel lies at ", first[axis], " along ", "xyz"[axis],
-        ", that of block 0 at ", first0[axis], ".");
+      fail("its first voxel is at ", first[axis], " along ", "xyz"[axis],
+        ", but the first voxel of block 0 is at ", first0[axis], ".");
     }
-    // An axis of one voxel stays one while others shrink.
+    // Axes of one voxel are not reduced.
     if (image->GetDimensions()[axis] >= std::max(below->GetDimensions()[axis], 2))
     {
-      refuse("it has ", SizeOf(image), " voxels, and block ", h - 1, " below it ", SizeOf(below),
-        ".");
+      fail("it has ", SizeOf(image), " voxels, not fewer than block ", h - 1, " with ",
+        SizeOf(below), ".");
     }
   }
   const double* direction = image->GetDirectionMatrix()->GetData();
   if (!std::equal(direction, direction + 9, level0->GetDirectionMatrix()->GetData(),
         [](double a, double b) { return std::abs(a - b) <= 1e-6; }))
   {
-    refuse("its direction differs from block 0's.");
+    fail("its direction matrix differs from block 0.");
   }
 }
 
 namespace
 {
-/** Whether images are the levels of a pyramid, by size and place. */
+/** Return whether images have the sizes and positions of the levels of a pyramid. */
 bool AreLevels(const std::vector<vtkImageData*>& images)
 {
   try
   {
     for (unsigned int h = 1; h < images.size(); ++h)
     {
-      CheckPlace(images[0], images[h - 1], images[h], h);
+      CheckGeometry(images[0], images[h - 1], images[h], h);
     }
   }
-  catch (const Refusal&)
+  catch (const InvalidArgument&)
   {
     return false;
   }
   return true;
 }
 
-[[noreturn]] void RefuseType(vtkDataObject* data)
+[[noreturn]] void ThrowInvalidType(vtkDataObject* data)
 {
   const bool isField = !data->IsA("vtkPolyData") && !data->IsA("vtkTable");
-  Refuse("it is a ", data->GetClassName(),
-    "; an image of evenly spaced voxels (vtkImageData) is needed.",
-    isField ? " Apply Resample To Image (vtkResampleToImage) to it first." : "");
+  ThrowInvalidArgument("the data are a ", data->GetClassName(), ", not an image (vtkImageData). ",
+    isField ? "Apply Resample To Image (vtkResampleToImage) first." : "Connect an image.");
 }
 
-/** The only image, or level 0 of a pyramid. */
+/** Return the only image, or level 0 of a pyramid. */
 vtkImageData* ImageIn(vtkDataObjectTree* composite)
 {
   const auto leaves = vtkCompositeDataSet::GetDataSets<vtkDataObject>(composite);
@@ -101,18 +101,19 @@ vtkImageData* ImageIn(vtkDataObjectTree* composite)
   }
   if (images.size() > 1)
   {
-    Refuse("the ", composite->GetClassName(), " has ", images.size(),
-      " images, which are not the levels of a pyramid; one is needed. Take one of them by Extract "
-      "Block, or make one image of them by Resample To Image (vtkResampleToImage).");
+    ThrowInvalidArgument("the ", composite->GetClassName(), " has ", images.size(),
+      " images, which are not the levels of a pyramid. Select one by Extract Block, or combine "
+      "them "
+      "by Resample To Image (vtkResampleToImage).");
   }
   if (leaves.empty())
   {
-    Refuse("the ", composite->GetClassName(), " is empty: there is no image in it.");
+    ThrowInvalidArgument("the ", composite->GetClassName(), " has no image. Connect an image.");
   }
-  RefuseType(leaves.size() == 1 ? leaves[0] : composite);
+  ThrowInvalidType(leaves.size() == 1 ? leaves[0] : composite);
 }
 
-/** The array of cells that is meant, if cells are. */
+/** Return the selected cell array, or null if the selected array is not cell data. */
 vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
 {
   const std::string name = ChosenName(selection);
@@ -126,7 +127,7 @@ vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
     : nullptr;
 }
 
-/** Hides the points that stand for hidden cells. */
+/** Hide the points of hidden cells. */
 void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 {
   if (vtkUnsignedCharArray* ghosts = cells->GetCellGhostArray())
@@ -157,11 +158,11 @@ vtkDataObject* WholeInput(vtkInformationVector* port)
     {
       if (given[2 * axis] > requested[2 * axis] || given[2 * axis + 1] < requested[2 * axis + 1])
       {
-        Refuse("the source gives only ", SizeOf(image), " of the image's ",
+        ThrowInvalidArgument("the source provides only ", SizeOf(image), " of the image's ",
           requested[1] - requested[0] + 1, " x ", requested[3] - requested[2] + 1, " x ",
           requested[5] - requested[4] + 1,
-          " voxels, as one that is distributed over several processes does. The first process needs "
-          "the whole image. Save it as .pvti, and open that file instead.");
+          " voxels, but the first process needs the whole image. Save the distributed image as "
+          ".pvti, and open that file.");
       }
     }
   }
@@ -172,22 +173,22 @@ vtkImageData* ImageOf(vtkDataObject* input)
 {
   if (!input)
   {
-    Refuse("there is no image.");
+    ThrowInvalidArgument("there is no image. Connect one.");
   }
   if (auto* image = vtkImageData::SafeDownCast(input))
   {
     return image;
   }
-  // Refined grids are one dataset, though they are a tree of images from VTK 9.6 on.
+  // From VTK 9.6 on AMR datasets are trees of images, too.
   auto* composite = vtkDataObjectTree::SafeDownCast(input);
   if (composite && !input->IsA("vtkUniformGridAMR"))
   {
     return ImageIn(composite);
   }
-  RefuseType(input);
+  ThrowInvalidType(input);
 }
 
-PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
+PointVoxels ConvertCellsToPoints(vtkImageData* image, vtkInformation* selection)
 {
   vtkDataArray* cells = ChosenCells(image, selection);
   if (!cells)
@@ -196,7 +197,7 @@ PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
   }
   int extent[6];
   double first[3];
-  double centre[3];
+  double center[3];
   image->GetExtent(extent);
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -205,10 +206,10 @@ PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection)
     extent[2 * axis + 1] -= isFlat ? 0 : 1;
     first[axis] = isFlat ? 0.0 : 0.5;
   }
-  image->TransformContinuousIndexToPhysicalPoint(first, centre);
+  image->TransformContinuousIndexToPhysicalPoint(first, center);
   auto points = vtkSmartPointer<vtkImageData>::New();
   points->SetExtent(extent);
-  points->SetOrigin(centre);
+  points->SetOrigin(center);
   points->SetSpacing(image->GetSpacing());
   points->SetDirectionMatrix(image->GetDirectionMatrix());
   points->GetPointData()->SetScalars(cells);

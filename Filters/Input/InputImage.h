@@ -13,32 +13,31 @@ class vtkInformationVector;
 namespace volumic
 {
 /**
- * Return the data at an input port; null if there are none.
- * @throws std::invalid_argument if they are a part of the image that was requested: a source that is
- *         distributed over processes cannot give one process the whole.
+ * Return the data of an input port, or null if there are none.
+ * @throws InvalidArgument if they are only a part of the requested image, as from a source that is
+ *   distributed over processes
  */
 vtkDataObject* WholeInput(vtkInformationVector* port);
 
 /**
- * The image that the input of a filter means: itself; the only image in a composite dataset; block
- * 0 of a pyramid.
- * @throws std::invalid_argument naming the type and the way out if there is none, or if there are
- *         several.
+ * Return the image of an input: the input itself, the only image in a composite dataset, or block 0
+ * of a pyramid.
+ * @throws InvalidArgument if there is no image, or if there are several
  */
 vtkImageData* ImageOf(vtkDataObject* input);
 
-/** What messages about blocks that are no levels end with. */
-inline constexpr const char* LevelsWayOut =
-  " Give the output of Image Pyramid, or the image itself.";
+/** The end of messages about blocks that are not levels. */
+inline constexpr const char* LevelsAdvice =
+  " Connect the output of Image Pyramid, or the image itself.";
 
 /**
- * Looks whether an image is level h of the pyramid of level 0, by its size and place.
+ * Check that the size and position of an image are those of level h of a pyramid.
  * @param below level h - 1
- * @throws std::invalid_argument naming the block and the way out if it is not.
+ * @throws InvalidArgument if they are not
  */
-void CheckPlace(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h);
+void CheckGeometry(vtkImageData* level0, vtkImageData* below, vtkImageData* image, unsigned int h);
 
-/** An image whose voxels are points, and which array they are in. */
+/** An image whose voxels are points, and the selection of their array. */
 struct PointVoxels
 {
   vtkSmartPointer<vtkImageData> Image;
@@ -46,11 +45,11 @@ struct PointVoxels
 };
 
 /**
- * The image as it is where its voxels are points. Where a cell array is chosen, or none and only
- * cells have active scalars, an image whose points are the centres of the cells: it shares the
- * array, so that no value is blurred, as it would be by the way to the corners.
+ * Return the image itself if its voxels are points. If a cell array is selected, or only cells have
+ * active scalars, return an image whose points are the centers of the cells. It shares the array,
+ * so values are not interpolated.
  */
-PointVoxels TakeCellsAsPoints(vtkImageData* image, vtkInformation* selection);
+PointVoxels ConvertCellsToPoints(vtkImageData* image, vtkInformation* selection);
 }
 
 #endif

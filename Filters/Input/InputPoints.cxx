@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/InputPoints.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 
 #include <vtkCellArray.h>
@@ -23,11 +23,10 @@ namespace
 {
 /**
  * Return the points of the vertex cells, each once, in their order. Return all points if there are
- * no cells.
- * @param polyData may be null: no points
- * @throws Refusal if it has cells, but no vertices
+ * no cells, and no points for null.
+ * @throws InvalidArgument if there are cells, but no vertices
  */
-std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
+std::vector<vtkIdType> PointIds(vtkPolyData* polyData)
 {
   std::vector<vtkIdType> ids;
   if (!polyData)
@@ -43,22 +42,22 @@ std::vector<vtkIdType> IdsMeantBy(vtkPolyData* polyData)
   }
   if (polyData->GetNumberOfVerts() == 0)
   {
-    Refuse("Points are wanted, but the data has lines or polygons and no vertices. Mark the points "
-           "by vertices (vtkVertexGlyphFilter, in ParaView Convert To Point Cloud), or give them "
-           "without any cells.");
+    ThrowInvalidArgument(
+      "the data have lines or polygons, but no vertices, which mark the points. Add vertices "
+      "(vtkVertexGlyphFilter; ParaView: Convert To Point Cloud), or remove all cells.");
   }
-  if (const std::string fault = FaultOfCells(polyData); !fault.empty())
+  if (const std::string error = FindInvalidCells(polyData); !error.empty())
   {
-    Refuse("The data ", fault);
+    ThrowInvalidArgument("the data ", error);
   }
-  std::vector<bool> isTaken(numberOfPoints, false);
+  std::vector<bool> isListed(numberOfPoints, false);
   vtkDataArray* corners = polyData->GetVerts()->GetConnectivityArray();
   for (vtkIdType i = 0; i < corners->GetNumberOfTuples(); ++i)
   {
     const auto id = static_cast<vtkIdType>(corners->GetComponent(i, 0));
-    if (!isTaken[id])
+    if (!isListed[id])
     {
-      isTaken[id] = true;
+      isListed[id] = true;
       ids.push_back(id);
     }
   }
@@ -72,82 +71,84 @@ Point WorldOf(vtkPolyData* polyData, vtkIdType id)
   return world;
 }
 
-std::vector<Point> PlacesMeantBy(vtkPolyData* polyData, const Workspace& space)
+std::vector<Point> PointPositions(vtkPolyData* polyData, const ComputationalSpace& space)
 {
-  std::vector<Point> places;
-  for (const vtkIdType id : IdsMeantBy(polyData))
+  std::vector<Point> positions;
+  for (const vtkIdType id : PointIds(polyData))
   {
-    places.push_back(space.ToWorkspace(WorldOf(polyData, id)));
+    positions.push_back(space.ToComputationalSpace(WorldOf(polyData, id)));
   }
-  return places;
+  return positions;
 }
 
 /**
- * A point in the workspace.
- * @param beyond voxels that it may lie behind the end of the image; one is allowed before its begin
+ * Return a point in computational space.
+ * @param margin voxels that it may lie beyond the last voxel layer; one is allowed before the first
+ * @throws InvalidArgument if it lies farther outside
  */
-Point PlaceInside(const Point& world, vtkIdType id, const Workspace& space,
-  const std::array<int, 3>& size, int beyond)
+Point CheckInside(const Point& world, vtkIdType id, const ComputationalSpace& space,
+  const std::array<int, 3>& size, int margin)
 {
-  const Point place = space.ToWorkspace(world);
+  const Point position = space.ToComputationalSpace(world);
   for (int axis = 0; axis < 3; ++axis)
   {
     const double step = space.Step()[axis];
-    // Written so that NaN is refused too.
-    if (!(place[axis] >= -step && place[axis] <= step * (size[axis] + beyond)))
+    // NaN is an error, too.
+    if (!(position[axis] >= -step && position[axis] <= step * (size[axis] + margin)))
     {
-      Refuse("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
-        ") lies outside the image. Points are in world coordinates; move it into the image, or "
-        "remove it.");
+      ThrowInvalidArgument("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
+        ") is outside the image. Move it into the image (world coordinates), or remove it.");
     }
   }
-  return place;
+  return position;
 }
 
-/** Whether it has polygons and no vertices: then it is a surface, and no points are meant. */
+/** Return whether the data have polygons and no vertices. */
 bool IsSurfaceOnly(vtkPolyData* polyData)
 {
   return polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() > 0 &&
     polyData->GetNumberOfVerts() == 0;
 }
 
-/** The number that a point has in an array, if there is one of that name. */
+/** Return the value of a point in an optional array. */
 double NumberAt(vtkPolyData* polyData, const char* name, vtkIdType id, double missing)
 {
   vtkAbstractArray* found = polyData->GetPointData()->GetAbstractArray(name);
   auto* numbers = vtkDataArray::SafeDownCast(found);
   if (found && (!numbers || numbers->GetNumberOfComponents() != 1))
   {
-    Refuse("the point array ", name, " must hold one number per point.");
+    ThrowInvalidArgument(
+      "point array '", name, "' is not numeric with one component. Provide one number per point.");
   }
   const double value = numbers ? numbers->GetComponent(id, 0) : missing;
   if (!(value >= 0.0) || !std::isfinite(value))
   {
-    Refuse(name, " of point ", id, " is ", value, "; it must be 0 or more.");
+    ThrowInvalidArgument(name, " of point ", id, " is ", value, ". Set it to 0 or more.");
   }
   return value;
 }
 }
 
-std::vector<Point> SeedsOf(vtkPolyData* port1, const Workspace& space)
+std::vector<Point> SeedsOf(vtkPolyData* port1, const ComputationalSpace& space)
 {
   if (port1 && IsSurfaceOnly(port1))
   {
-    Refuse("The seeds must be vertices or mere points, but the data is a surface. Give the centres "
-           "of the seeds, or set Initialization to Input Surface.");
+    ThrowInvalidArgument("the data are a surface, not seeds. Connect the centers of the seeds as "
+                         "vertices or as points "
+                         "without cells, or set Initialization to Input Surface.");
   }
-  return PlacesMeantBy(port1, space);
+  return PointPositions(port1, space);
 }
 
 std::vector<AttractingPoint> AttractingPointsOf(
-  vtkPolyData* port2, const Workspace& space, const std::array<int, 3>& size)
+  vtkPolyData* port2, const ComputationalSpace& space, const std::array<int, 3>& size)
 {
   std::vector<AttractingPoint> attracting;
-  for (const vtkIdType id : IdsMeantBy(port2))
+  for (const vtkIdType id : PointIds(port2))
   {
     AttractingPoint point;
-    // There the field still ramps down to the background.
-    point.Place = PlaceInside(WorldOf(port2, id), id, space, size, 0);
+    // Beyond the last voxel layer the field decreases to the background.
+    point.Position = CheckInside(WorldOf(port2, id), id, space, size, 0);
     point.Weight = NumberAt(port2, "Weight", id, 1.0);
     point.Radius = NumberAt(port2, "Radius", id, 0.0) / space.WorldUnit();
     attracting.push_back(point);
@@ -155,40 +156,41 @@ std::vector<AttractingPoint> AttractingPointsOf(
   return attracting;
 }
 
-std::vector<Point> PlacesOf(vtkPolyData* port1, vtkPolyData* port2, const Workspace& space)
+std::vector<Point> SelectionPositions(
+  vtkPolyData* port1, vtkPolyData* port2, const ComputationalSpace& space)
 {
-  std::vector<Point> places;
+  std::vector<Point> positions;
   if (port1 && !IsSurfaceOnly(port1))
   {
-    places =
-      PrefixErrors("Input port 1 (Initial Surface): ", [&] { return PlacesMeantBy(port1, space); });
+    positions = PrefixErrors(
+      "Input port 1 (Initial Surface): ", [&] { return PointPositions(port1, space); });
   }
-  const std::vector<Point> more =
-    PrefixErrors("Input port 2 (Attracting Points): ", [&] { return PlacesMeantBy(port2, space); });
-  places.insert(places.end(), more.begin(), more.end());
-  return places;
+  const std::vector<Point> more = PrefixErrors(
+    "Input port 2 (Attracting Points): ", [&] { return PointPositions(port2, space); });
+  positions.insert(positions.end(), more.begin(), more.end());
+  return positions;
 }
 
-std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
-  const Workspace& space, const std::array<int, 3>& size)
+std::vector<Point> PositionsOf(const std::vector<Point>& worldPositions, const char* label,
+  const ComputationalSpace& space, const std::array<int, 3>& size)
 {
-  std::vector<Point> places;
-  for (const Point& world : positions)
+  std::vector<Point> positions;
+  for (const Point& world : worldPositions)
   {
-    const auto id = static_cast<vtkIdType>(places.size());
-    places.push_back(PrefixErrors(
-      Join(label, ": "), [&] { return PlaceInside(world, id, space, size, 1); }));
+    const auto id = static_cast<vtkIdType>(positions.size());
+    positions.push_back(
+      PrefixErrors(Join(label, ": "), [&] { return CheckInside(world, id, space, size, 1); }));
     for (int axis = 0; axis < 3; ++axis)
     {
-      // Not the very end of the box, which the levels have rounded.
+      // Stay off the end of the box, which is rounded at coarser levels.
       const double end = (1.0 - 1e-9) * (space.Step()[axis] * size[axis]);
-      places.back()[axis] = std::max(0.0, std::min(end, places.back()[axis]));
+      positions.back()[axis] = std::max(0.0, std::min(end, positions.back()[axis]));
     }
   }
-  return places;
+  return positions;
 }
 
-std::string FaultOfCells(vtkPolyData* data)
+std::string FindInvalidCells(vtkPolyData* data)
 {
   const vtkIdType points = data->GetNumberOfPoints();
   for (vtkCellArray* cells :
@@ -196,7 +198,7 @@ std::string FaultOfCells(vtkPolyData* data)
   {
     if (!cells->IsValid())
     {
-      return "is damaged: its cells overlap.";
+      return "have invalid cells: offsets and connectivity do not match. Repair the file.";
     }
     double range[2] = { 0.0, -1.0 };
     if (cells->GetNumberOfConnectivityIds() > 0)
@@ -205,8 +207,8 @@ std::string FaultOfCells(vtkPolyData* data)
     }
     if (range[0] < 0.0 || range[1] >= static_cast<double>(points))
     {
-      return Join("is damaged: a cell has point ", range[0] < 0.0 ? range[0] : range[1],
-        ", there are ", points, ".");
+      return Join("have a cell with point ", range[0] < 0.0 ? range[0] : range[1], ", but only ",
+        points, " points. Repair the file.");
     }
   }
   return "";

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Input/LabelValues.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/LargeArrays.h"
 #include "Input/ImageVoxels.h"
 
@@ -18,7 +18,7 @@ namespace volumic
 {
 namespace
 {
-/** Whether a whole number is an int. */
+/** Return whether an integer is in the range of int. */
 template <typename T>
 bool IsInt(T value)
 {
@@ -36,7 +36,7 @@ T Rounded(T value)
   return value;
 }
 
-/** The whole number as a file has it. */
+/** Return all digits of an integer. */
 template <typename T>
 std::string DigitsOf(T value)
 {
@@ -50,22 +50,22 @@ std::string DigitsOf(T value)
   }
 }
 
-/** What the voxels of an array have beside labels that are ints. */
+/** Values of an array that need a conversion. */
 template <typename T>
-struct Others
+struct Conversion
 {
-  std::map<T, int> Wide;   ///< labels that no int holds, and their numbers
-  int Largest = 0;         ///< of the other labels
-  std::size_t Missing = 0; ///< NaN
-  double Farthest = 0.0;   ///< from a whole number
+  std::map<T, int> Wide;   ///< labels outside the range of int, with their new numbers
+  int Largest = 0;         ///< largest of the other labels
+  std::size_t Missing = 0; ///< number of NaN voxels
+  double Farthest = 0.0;   ///< largest distance from an integer
 };
 
 template <typename T>
-Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
+Conversion<T> FindConversion(const T* voxels, vtkDataArray* array, std::size_t most)
 {
   constexpr double mostOff = 0.01;
   const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
-  Others<T> found;
+  Conversion<T> found;
   for (std::size_t i = 0; i < count && found.Wide.size() <= most; ++i)
   {
     const T whole = Rounded(voxels[i]);
@@ -73,11 +73,11 @@ Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
     const double off = std::abs(value - static_cast<double>(whole));
     if (off > mostOff || std::isinf(value))
     {
-      Refuse(NameOf(array), " has the value ", value,
-        "; labels must be integers. For the surface of a volume that is no label map apply "
+      ThrowInvalidArgument(NameOf(array), " has the value ", value,
+        "; labels must be integers. For the surface of an image that is not a label map apply "
         "Volume to Surface (vtkVolumeToSurface).");
     }
-    found.Farthest = std::max(found.Farthest, off); // NaN is none.
+    found.Farthest = std::max(found.Farthest, off); // NaN has no effect.
     if (std::isnan(value))
     {
       ++found.Missing;
@@ -94,9 +94,9 @@ Others<T> FindOthers(const T* voxels, vtkDataArray* array, std::size_t most)
   const auto room = static_cast<std::size_t>(std::numeric_limits<int>::max() - found.Largest);
   if (found.Wide.size() > std::min(most, room))
   {
-    Refuse(NameOf(array), " has more than ", std::min(most, room),
-      " different values that 32 bits don't hold, such as ", DigitsOf(found.Wide.begin()->first),
-      ": it is likely no label map. Number them anew if it is.");
+    ThrowInvalidArgument(NameOf(array), " has more than ", std::min(most, room),
+      " different values outside the range of int, such as ", DigitsOf(found.Wide.begin()->first),
+      "; it is probably not a label map. Renumber the labels if it is.");
   }
   return found;
 }
@@ -106,16 +106,17 @@ void MakeInts(
   const T* voxels, int background, std::size_t most, Executor& threads, LabelValues& values)
 {
   vtkDataArray* array = values.Voxels;
-  Others<T> found = FindOthers(voxels, array, most);
+  Conversion<T> found = FindConversion(voxels, array, most);
   if (std::is_floating_point_v<T>)
   {
-    values.Told = Join(NameOf(array), " is of type ", array->GetDataTypeAsString(),
-      found.Farthest > 0.0
-        ? Join("; its values are within ", found.Farthest, " of integers, and are rounded to labels")
-        : std::string("; its values are integers and are taken as labels"),
-      found.Missing > 0 ? Join("; NaN, at ", found.Missing,
-                            found.Missing == 1 ? " voxel" : " voxels", ", is background.")
-                        : std::string("."));
+    values.Conversions = Join(NameOf(array), " is of type ", array->GetDataTypeAsString(),
+      found.Farthest > 0.0 ? Join("; its values are within ", found.Farthest,
+                               " of integers, and are rounded to labels")
+                           : std::string("; its values are integers, and are used as labels"),
+      found.Missing > 0
+        ? Join("; ", found.Missing, found.Missing == 1 ? " NaN voxel is" : " NaN voxels are",
+            " background.")
+        : std::string("."));
   }
   if (found.Wide.empty() && found.Missing == 0 && found.Farthest == 0.0)
   {
@@ -132,10 +133,10 @@ void MakeInts(
   }
   if (const std::size_t n = found.Wide.size(); n > 0)
   {
-    values.Told += Join(values.Told.empty() ? "" : " ", NameOf(array), " has ", n,
+    values.Conversions += Join(values.Conversions.empty() ? "" : " ", NameOf(array), " has ", n,
       n == 1 ? " label" : " labels",
-      " that 32 bits don't hold; they are numbered anew, and named by what they were: ",
-      list, n > mostListed ? " and so on." : ".");
+      " outside the range of int. They are renumbered, and named by their old numbers: ", list,
+      n > mostListed ? " and so on." : ".");
   }
   const auto count = static_cast<std::size_t>(array->GetNumberOfTuples());
   const auto labels = NewLargeArray<vtkIntArray>(count);
@@ -162,8 +163,8 @@ LabelValues LabelValuesOf(vtkDataArray* voxels, int background, std::size_t most
   values.Voxels = voxels;
   if (voxels->GetDataTypeSize() >= 4 && voxels->GetDataType() != VTK_INT)
   {
-    VisitVoxels(voxels,
-      [&](const auto* numbers) { MakeInts(numbers, background, most, threads, values); });
+    VisitVoxels(
+      voxels, [&](const auto* numbers) { MakeInts(numbers, background, most, threads, values); });
   }
   return values;
 }

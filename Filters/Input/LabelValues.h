@@ -14,20 +14,21 @@
 
 namespace volumic
 {
-/** Voxels of which each is an int, in any type. */
+/** Voxels that are all integers in the range of int, of any type. */
 struct LabelValues
 {
   vtkSmartPointer<vtkDataArray> Voxels;
-  std::map<int, std::string> Numbers; ///< what labels were that no int holds
-  std::string Told;                   ///< what was done; empty: nothing
+  std::map<int, std::string> Numbers; ///< original values of renumbered labels
+  std::string Conversions;            ///< warning about conversions; empty: none
 };
 
 /**
- * Real numbers that are whole but for a hundredth, as resampling leaves them, are rounded, and NaN
- * is the background; labels that no int holds get the numbers behind the largest of the others.
- * @param voxels contiguous in memory, of one component: shared where they are labels already
- * @param most   labels that may be numbered anew
- * @throws std::invalid_argument if a value is no whole number, or too many are no int.
+ * Convert voxels to labels. Floating-point numbers within 0.01 of integers are rounded, as after
+ * resampling. NaN becomes background. Labels outside the range of int are renumbered from the
+ * largest other label on.
+ * @param voxels contiguous in memory, one component; shared if no conversion is necessary
+ * @param most   maximum number of labels to renumber
+ * @throws InvalidArgument for other numbers, or if too many labels are outside the range of int
  */
 LabelValues LabelValuesOf(
   vtkDataArray* voxels, int background, std::size_t most, Executor& threads);

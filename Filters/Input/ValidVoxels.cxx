@@ -3,7 +3,7 @@
 #include "Input/ValidVoxels.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/LevelReduction.h"
 #include "Input/ImageVoxels.h"
 
@@ -23,7 +23,7 @@ namespace volumic
 {
 namespace
 {
-/** The ghost array, or null where no bit of `hidden` is set in it. */
+/** Return the values of a ghost array, or null if none has a bit of `hidden`. */
 const unsigned char* HidingGhosts(
   vtkUnsignedCharArray* ghosts, vtkIdType count, unsigned char hidden)
 {
@@ -71,7 +71,7 @@ LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)
   return marks;
 }
 
-/** Counts voxels that have marks, and unmarks them. */
+/** Count and unmark the marked voxels that are not finite. */
 template <typename T>
 void CountNotFinite(const T* values, LargeVector<std::uint8_t>& marks, NotFiniteVoxels& nans,
   NotFiniteVoxels& infinite)
@@ -81,23 +81,23 @@ void CountNotFinite(const T* values, LargeVector<std::uint8_t>& marks, NotFinite
     const auto value = static_cast<double>(values[i]);
     if (marks[i] != 0 && !std::isfinite(value))
     {
-      NotFiniteVoxels& of = std::isnan(value) ? nans : infinite;
-      of.First = of.Count++ == 0 ? static_cast<std::int64_t>(i) : of.First;
+      NotFiniteVoxels& kind = std::isnan(value) ? nans : infinite;
+      kind.First = kind.Count++ == 0 ? static_cast<std::int64_t>(i) : kind.First;
       marks[i] = 0;
     }
   }
 }
 
-/** `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k)` */
-std::string Describe(vtkDataArray* array, const char* kind, std::int64_t count,
-  std::int64_t first, vtkImageData* image)
+/** Return `array 'name' has 3 NaN voxels (1.5 %), the first at (i, j, k)`. */
+std::string Describe(vtkDataArray* array, const char* kind, std::int64_t count, std::int64_t first,
+  vtkImageData* image)
 {
   int at[3];
   vtkStructuredData::ComputePointStructuredCoordsForExtent(first, image->GetExtent(), at);
-  const double share =
+  const double percent =
     100.0 * static_cast<double>(count) / static_cast<double>(image->GetNumberOfPoints());
   return Join(NameOf(array), " has ", count, " ", kind, " voxel", count == 1 ? "" : "s",
-    share < 0.1 ? std::string() : Join(" (", std::round(share * 10.0) / 10.0, " %)"),
+    percent < 0.1 ? std::string() : Join(" (", std::round(percent * 10.0) / 10.0, " %)"),
     ", the first at (", at[0], ", ", at[1], ", ", at[2], ")");
 }
 }
@@ -121,13 +121,13 @@ ValidVoxels FindValidVoxels(vtkDataArray* original, vtkDataArray* contiguous, vt
     });
   if (infinite.Count > 0)
   {
-    Refuse(Describe(original, "infinite", infinite.Count, infinite.First, image),
-      ". Replace them by numbers, for instance by the value of the background.");
+    ThrowInvalidArgument(Describe(original, "infinite", infinite.Count, infinite.First, image),
+      ". Replace them by numbers, such as the background value.");
   }
   if (nans.Count > 0 && !nanIsBackground)
   {
-    Refuse(Describe(original, "NaN", nans.Count, nans.First, image),
-      ". Turn NaN Is Background on, or replace them by numbers.");
+    ThrowInvalidArgument(Describe(original, "NaN", nans.Count, nans.First, image),
+      ". Switch NaN Is Background on, or replace them by numbers.");
   }
   valid.NaNs = nans.Count;
   valid.FirstNaN = nans.First;
@@ -161,13 +161,14 @@ void CheckAnyIsValid(vtkDataArray* original, const ValidVoxels& valid)
   if (!valid.Marks.empty() &&
     std::find(valid.Marks.begin(), valid.Marks.end(), std::uint8_t(1)) == valid.Marks.end())
   {
-    Refuse("all voxels of ", NameOf(original), " are NaN or blanked: there is nothing to see.");
+    ThrowInvalidArgument(
+      "all voxels of ", NameOf(original), " are NaN or blanked. Choose another array or image.");
   }
 }
 
 std::string DescribeNaNs(vtkDataArray* original, vtkImageData* image, const ValidVoxels& valid)
 {
   return Describe(original, "NaN", valid.NaNs, valid.FirstNaN, image) +
-    ". They count as background; switch NaN Is Background off to refuse them.";
+    ". They are background. Switch NaN Is Background off to report an error instead.";
 }
 }

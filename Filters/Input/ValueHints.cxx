@@ -3,7 +3,7 @@
 #include "Input/ValueHints.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Input/ImageVoxels.h"
 #include "Input/ValidVoxels.h"
 
@@ -29,10 +29,10 @@ namespace
 {
 constexpr int Bins = 1024;
 
-/** Return where to split the bins from `first` on for the largest variance between the classes. */
+/** Return the split of the bins from `first` on with the largest variance between the classes. */
 int BestSplit(const std::vector<vtkIdType>& counts, int first = 0)
 {
-  // Bins stand for the values, which follow from them by a scale that changes no maximum.
+  // Bin numbers replace the values: a scale does not change the position of the maximum.
   double all = 0.0;
   double sum = 0.0;
   for (int bin = first; bin < Bins; ++bin)
@@ -65,7 +65,7 @@ int BestSplit(const std::vector<vtkIdType>& counts, int first = 0)
 /** Return BrightThreshold of a histogram with Otsu's split. */
 double FindBrightThreshold(const VoxelHistogram& found, int split)
 {
-  // Of 14 scans, seven have such a part: 0.9 % of the voxels (engine) to 6.2 % (tooth).
+  // In 14 scans, seven have such a part, with 0.9 % (engine) to 6.2 % (tooth) of the voxels.
   constexpr double leastObject = 0.1;
   constexpr double mostBright = 0.1;
   const auto above = [&](int bin)
@@ -80,9 +80,9 @@ double FindBrightThreshold(const VoxelHistogram& found, int split)
   return hasPart ? std::round(value / unit) * unit : std::numeric_limits<double>::quiet_NaN();
 }
 
-/** The largest voxel up to a value, and the smallest one above that. */
+/** Return the largest voxel up to a value, and the smallest one above it. */
 template <typename T>
-std::array<double, 2> FindNeighbours(
+std::array<double, 2> FindNeighbors(
   const T* voxels, vtkIdType count, const ValidVoxels& valid, double value)
 {
   T below = std::numeric_limits<T>::lowest();
@@ -100,18 +100,19 @@ std::array<double, 2> FindNeighbours(
 }
 
 /**
- * Has no value what lies outside the circle that a CT is reconstructed in, such as -2000 or -3024:
- * less than any matter has, a hundredth of the voxels or more, and none is near. @return whether
- * there is such padding.
+ * Mark the padding of a CT as not valid, such as -2000 or -3024 outside the reconstruction circle.
+ * It is less than the value of air, has at least a hundredth of the voxels, and no other value is
+ * near.
+ * @return whether there is padding
  */
 template <typename T>
-bool LeaveOutPadding(
+bool RemovePadding(
   const T* voxels, vtkIdType count, const std::array<double, 2>& range, ValidVoxels& valid)
 {
   constexpr double air = -1024.0;
   constexpr double gap = 400.0;
-  constexpr std::size_t leastValues = 16; // Fewer are a drawing, not a scan.
-  const double next = range[0] < air ? FindNeighbours(voxels, count, valid, range[0])[1] : range[0];
+  constexpr std::size_t leastValues = 16; // A scan has more different values.
+  const double next = range[0] < air ? FindNeighbors(voxels, count, valid, range[0])[1] : range[0];
   if (next - range[0] < gap || !(next < range[1]))
   {
     return false;
@@ -142,15 +143,15 @@ VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& va
 {
   const vtkIdType count = array->GetNumberOfTuples();
   std::array<double, 2> range = RangeOf(array, valid);
-  if (LeaveOutPadding(voxels, count, range, valid))
+  if (RemovePadding(voxels, count, range, valid))
   {
     range = RangeOf(array, valid);
   }
   const double size = range[1] - range[0];
   if (!(size > 0.0) || !std::isfinite(size))
   {
-    Refuse(NameOf(array), " ranges from ", range[0], " to ", range[1],
-      ": no value separates its voxels.");
+    ThrowInvalidArgument(NameOf(array), " ranges from ", range[0], " to ", range[1],
+      ", so no value separates its voxels. Choose another array or component.");
   }
   VoxelHistogram found;
   found.Range = range;
@@ -160,14 +161,14 @@ VoxelHistogram SplitVoxels(const T* voxels, vtkDataArray* array, ValidVoxels& va
   {
     if (valid.Has(i))
     {
-      const double place = (static_cast<double>(voxels[i]) - range[0]) * scale;
-      ++found.Counts[std::min(Bins - 1, static_cast<int>(place))];
+      const double bin = (static_cast<double>(voxels[i]) - range[0]) * scale;
+      ++found.Counts[std::min(Bins - 1, static_cast<int>(bin))];
     }
   }
   const int split = BestSplit(found.Counts);
   const double value = range[0] + split * size / Bins;
-  const std::array<double, 2> neighbours = FindNeighbours(voxels, count, valid, value);
-  const double middle = 0.5 * (neighbours[0] + neighbours[1]);
+  const std::array<double, 2> neighbors = FindNeighbors(voxels, count, valid, value);
+  const double middle = 0.5 * (neighbors[0] + neighbors[1]);
   found.Threshold = std::is_floating_point_v<T> ? middle : std::floor(middle) + 0.5;
   found.BrightThreshold = FindBrightThreshold(found, split);
   return found;
@@ -187,30 +188,29 @@ VoxelHistogram FindOtsuThreshold(vtkImageData* image, vtkInformation* selection,
 
 namespace
 {
-/** More different values are no labels. */
+/** Maximum number of different values of a label map. */
 constexpr std::size_t MostValues = 1024;
 /**
- * Share of equal neighbours from which on voxels are labels. Of nine atlases the least is 0.82; of
- * fourteen scans, half of them of 8 bits, the most is 0.57, and that one is saturated.
+ * Minimum fraction of equal neighbors in a label map. Nine atlases have at least 0.82. Fourteen
+ * scans, half of them of 8 bits, have at most 0.57, in a saturated one.
  */
-constexpr double LeastShareOfEqual = 0.75;
-/** Fewer pairs of neighbours tell nothing. */
-constexpr vtkIdType LeastPairs = 50;
+constexpr double MinimumFractionOfEqual = 0.75;
+/** Minimum number of pairs of neighbors. */
+constexpr vtkIdType MinimumPairs = 50;
 
-/** Calls `use` with the begins of rows of about a million voxels. */
+/** Call `use` with the first voxels of rows with about a million voxels in total. */
 template <typename T, typename Use>
 void ForSomeRows(const T* voxels, const int size[3], const Use& use)
 {
   constexpr vtkIdType mostVoxels = 1 << 20;
   const vtkIdType rows = static_cast<vtkIdType>(size[1]) * size[2];
-  for (vtkIdType row = 0; row < rows;
-       row += std::max<vtkIdType>(1, rows * size[0] / mostVoxels))
+  for (vtkIdType row = 0; row < rows; row += std::max<vtkIdType>(1, rows * size[0] / mostVoxels))
   {
     use(voxels + row * size[0]);
   }
 }
 
-/** The number of different values if they look like labels, else 0. */
+/** Return the number of different values if they look like labels, or 0. */
 template <typename T>
 std::size_t CountLabels(const T* voxels, const int size[3])
 {
@@ -231,7 +231,9 @@ std::size_t CountLabels(const T* voxels, const int size[3])
     return 0;
   }
   const double background = std::max_element(counts.begin(), counts.end(),
-    [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+    [](const auto& a, const auto& b) {
+      return a.second < b.second;
+    })->first;
   vtkIdType pairs = 0;
   vtkIdType equal = 0;
   ForSomeRows(voxels, size,
@@ -245,8 +247,8 @@ std::size_t CountLabels(const T* voxels, const int size[3])
         equal += isPair && row[i - 1] == row[i];
       }
     });
-  return pairs >= LeastPairs &&
-      static_cast<double>(equal) >= LeastShareOfEqual * static_cast<double>(pairs)
+  return pairs >= MinimumPairs &&
+      static_cast<double>(equal) >= MinimumFractionOfEqual * static_cast<double>(pairs)
     ? counts.size()
     : 0;
 }
@@ -257,9 +259,9 @@ std::string HintAtLabels(vtkDataArray* voxels, const int size[3])
   std::size_t count = 0;
   VisitVoxels(voxels, [&](const auto* values) { count = CountLabels(values, size); });
   return count > 0
-    ? Join(NameOf(voxels), " looks like a label map: ", count,
-        " different integers. Labels to Surfaces (vtkLabelsToSurfaces) makes a smooth surface of "
-        "each label; here an isopotential between them is searched.")
+    ? Join(NameOf(voxels), " looks like a label map: it has ", count,
+        " different integers. For a smooth surface of each label apply Labels to Surfaces "
+        "(vtkLabelsToSurfaces); this filter computes one isosurface.")
     : std::string();
 }
 
@@ -281,13 +283,13 @@ std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labe
   {
     VisitVoxels(voxels, [&](const auto* values) { ForSomeRows(values, size, count); });
   }
-  const double share =
+  const double fraction =
     static_cast<double>(unequal) / static_cast<double>(std::max<vtkIdType>(pairs, 1));
-  return share > mostUnequal
-    ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * share),
-        " % of the neighbours along x have different ones: it looks like a scan, not like a label "
-        "map. For an isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable "
-        "Surface (vtkDeformableSurface), or run volumic with --iso.")
+  return fraction > mostUnequal
+    ? Join(NameOf(voxels), " has ", labels, " labels, and ", std::lround(100.0 * fraction),
+        " % of the neighbors along x differ, so it looks like a scan, not like a label map. For an "
+        "isosurface of a scan apply Volume to Surface (vtkVolumeToSurface) or Deformable Surface "
+        "(vtkDeformableSurface), or run volumic with --iso.")
     : std::string();
 }
 }

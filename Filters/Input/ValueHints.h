@@ -17,39 +17,38 @@ class vtkInformation;
 
 namespace volumic
 {
-/** The values of an image's voxels, and what parts them best. */
+/** Histogram and thresholds of an image. */
 struct VoxelHistogram
 {
-  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels, but for the padding of CT
-  std::vector<vtkIdType> Counts;              ///< voxels of each bin of it
+  std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels, without the padding of a CT
+  std::vector<vtkIdType> Counts;              ///< number of voxels of each bin
   double Threshold = 0.0;
   /**
-   * Otsu's threshold of the voxels above the first threshold, rounded to two digits, if the object is
-   * large and has a small bright part, such as bone in CT or vessels in MR; else NaN.
+   * Otsu's threshold of the voxels above Threshold, rounded to two digits. It is NaN unless the
+   * object is large and has a small bright part, such as bone in CT or vessels in MR.
    */
   double BrightThreshold = std::numeric_limits<double>::quiet_NaN();
 };
 
 /**
- * What vtkOtsuThreshold finds.
- * @param selection of the voxels, as GetInputArrayInformation()
- * @throws std::invalid_argument where there is no such value.
+ * Compute the histogram and the thresholds of vtkOtsuThreshold.
+ * @param selection selection of the voxels, as from GetInputArrayInformation()
+ * @throws InvalidArgument if no value separates the voxels
  */
 VoxelHistogram FindOtsuThreshold(vtkImageData* image, vtkInformation* selection, int component);
 
 /**
- * What someone should know who searches an isopotential in a label map: that there is a filter for
- * that. Empty: the voxels don't look like one. They do where they are integers, of which not many
- * are different, and almost all neighbours along x that are no background (the most frequent value)
- * are equal. Some rows are looked at.
- *
+ * Return a warning that names vtkLabelsToSurfaces if voxels look like a label map, or an empty
+ * string. They do if they are integers with few different values, and if almost all neighbors along
+ * x are equal. Background, the most frequent value, is ignored. Only some rows are tested.
  * @param size voxels along each axis
  */
 std::string HintAtLabels(vtkDataArray* voxels, const int size[3]);
 
 /**
- * Return a warning for a label map that looks like a scan, else nothing: it has more than 256
- * labels, and more than a third of the neighbours along x differ. Some rows are tested.
+ * Return a warning if a label map looks like a scan, or an empty string. It does if it has more
+ * than 256 labels, and if more than a third of the neighbors along x differ. Only some rows are
+ * tested.
  */
 std::string HintAtScan(vtkDataArray* voxels, const int size[3], std::size_t labels);
 }

@@ -24,11 +24,11 @@ namespace volumic
 {
 namespace
 {
-/** How many labels a warning names. */
-constexpr std::size_t MostNamed = 10;
+/** Maximum number of labels in a warning. */
+constexpr std::size_t MaximumNamed = 10;
 
-/** Share of missing voxels that is worth a warning; less is field data only. */
-constexpr double NotableShare = 0.05;
+/** Fraction of missing voxels above which there is a warning, not only field data. */
+constexpr double NotableFraction = 0.05;
 
 template <typename Array, typename Value>
 void AddField(
@@ -44,7 +44,7 @@ void AddField(
   surface->GetFieldData()->AddArray(array);
 }
 
-/** The labels of the triangles; of a merged surface the nearest one's. */
+/** Add the labels of the triangles: in a merged surface the nearest one. */
 void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const LabelImage& image)
 {
   vtkNew<vtkIntArray> array;
@@ -61,7 +61,7 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
-/** What each of the labels is called, and its colour. */
+/** Add the names and colors of labels. */
 void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
 {
   std::vector<std::string> texts;
@@ -76,7 +76,7 @@ void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelN
   AddField<vtkDoubleArray>(surface, "LabelColor", colors, 3);
 }
 
-/** What surfaces lack of their labels. */
+/** Collects labels that are not represented well by their surfaces. */
 class Losses
 {
 public:
@@ -107,29 +107,30 @@ public:
       this->WrongVolumes.push_back(Join(name, percent > 0 ? " (+" : " (", percent, " %)"));
       this->Missing += std::abs(surface.VolumeError) * count;
     }
-    if (surface.WrongParts > 0)
+    if (surface.MisclassifiedParts > 0)
     {
-      this->WrongParts.push_back(Join(name, " (", surface.WrongParts, " of ", surface.Parts, ")"));
+      this->MisclassifiedParts.push_back(
+        Join(name, " (", surface.MisclassifiedParts, " of ", surface.Parts, ")"));
     }
   }
 
-  /** Whether they are worth a warning. */
-  bool AreNotable() const { return this->Missing > NotableShare * this->Voxels; }
+  /** Return whether to warn. */
+  bool AreNotable() const { return this->Missing > NotableFraction * this->Voxels; }
 
   std::string Text() const
   {
     std::string text;
-    const auto add = [&](const char* what, const std::vector<std::string>& names)
+    const auto add = [&](const char* problem, const std::vector<std::string>& names)
     {
       if (!names.empty())
       {
-        text += Join(text.empty() ? "" : " ", what, Listed(names, MostNamed), this->Reasons());
+        text += Join(text.empty() ? "" : " ", problem, Listed(names, MaximumNamed), this->Advice());
       }
     };
-    add("No surface is left of ", this->Empty);
-    add("More voxels than half are on the wrong side of the surface of ", this->Missed);
-    add("The volume is not that of the voxels of ", this->WrongVolumes);
-    add("Parts have another volume than their voxels, of ", this->WrongParts);
+    add("These labels have no surface: ", this->Empty);
+    add("More than half of the voxels are misclassified for ", this->Missed);
+    add("The enclosed volume differs from the voxels for ", this->WrongVolumes);
+    add("The enclosed volume of parts differs from their voxels for ", this->MisclassifiedParts);
     return text;
   }
 
@@ -139,7 +140,7 @@ private:
     return this->Settings.FinestLevel > 0 || this->Settings.EdgeLength > 0.0;
   }
 
-  /** Whether the volume is off, and no setting brings that about. */
+  /** Return whether the volume is wrong, and no setting explains this. */
   bool HasWrongVolume(const LabelSurface& surface, vtkIdType voxels) const
   {
     constexpr vtkIdType least = 100;
@@ -148,21 +149,21 @@ private:
       this->Settings.KeepComponents == 0;
   }
 
-  /** Possible reasons, and the way out. */
-  std::string Reasons() const
+  /** Return possible reasons, and settings that help. */
+  std::string Advice() const
   {
-    return Join(": too small, scattered, or too thin for the triangles",
-      this->Settings.KeepComponents != 0 ? ", or left out by Keep Components." : ".",
+    return Join(". They are too small, scattered, or too thin for the triangles",
+      this->Settings.KeepComponents != 0 ? ", or removed by Keep Components." : ".",
       !this->HasLargeTriangles()         ? ""
-        : this->Settings.EdgeLength > 0. ? " A shorter Edge Length makes these smaller."
-                                         : " A lower Finest Level makes these smaller.");
+        : this->Settings.EdgeLength > 0. ? " Set a shorter Edge Length."
+                                         : " Set a lower Finest Level.");
   }
 
   const LabelSettings& Settings;
   std::vector<std::string> Empty;
   std::vector<std::string> Missed;
   std::vector<std::string> WrongVolumes;
-  std::vector<std::string> WrongParts;
+  std::vector<std::string> MisclassifiedParts;
   double Voxels = 0.0;
   double Missing = 0.0;
 };
@@ -194,21 +195,21 @@ std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
     AddField<vtkIntArray>(surface, "Label", labels);
     AddNames(surface, labels, choice.Names);
     AddField<vtkIdTypeArray, vtkIdType>(surface, "LabelVoxels", { voxels });
-    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.WrongVoxels });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongVoxels", { made.MisclassifiedVoxels });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "MissedVoxels", { made.MissedVoxels });
     AddField<vtkDoubleArray, double>(surface, "VolumeError", { made.VolumeError });
     AddField<vtkIdTypeArray, vtkIdType>(surface, "Parts", { made.Parts });
-    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.WrongParts });
+    AddField<vtkIdTypeArray, vtkIdType>(surface, "WrongParts", { made.MisclassifiedParts });
     output->SetBlock(static_cast<unsigned int>(i), surface);
     losses.Add(names[i], made, voxels, surface->GetNumberOfCells() == 0);
   }
   const std::string text = losses.Text();
   if (!text.empty())
   {
-    vtkNew<vtkStringArray> lost;
-    lost->SetName("LostLabels");
-    lost->InsertNextValue(text);
-    output->GetFieldData()->AddArray(lost);
+    vtkNew<vtkStringArray> missed;
+    missed->SetName("LostLabels");
+    missed->InsertNextValue(text);
+    output->GetFieldData()->AddArray(missed);
   }
   return losses.AreNotable() ? text : "";
 }

@@ -16,24 +16,24 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
-/** Of which labels there are surfaces, and what they are called. */
+/** The labels that get surfaces, with their names. */
 struct LabelChoice
 {
   std::vector<int> Labels; ///< sorted
-  bool IsMerged = false;   ///< one surface about all
+  bool IsMerged = false;   ///< one surface around all
   LabelNames Names;
 
-  /** The labels of a surface. */
+  /** Return the labels of a surface. */
   std::vector<int> LabelsOf(std::size_t surface) const
   {
     return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
   }
-  /** The first label of each surface. */
+  /** Return the first label of each surface. */
   std::vector<int> FirstLabels() const
   {
     return this->IsMerged ? std::vector<int>{ this->Labels.front() } : this->Labels;
   }
-  /** The name of each surface's block. */
+  /** Return the name of each block. */
   std::vector<std::string> BlockNames() const
   {
     std::vector<std::string> names;
@@ -46,16 +46,15 @@ struct LabelChoice
 };
 
 /**
- * Makes a block of each surface, with the arrays of labels.
- * @param stopped the `StopReason` of what is not finished
- * @return a warning: labels that have no surface, lose most of their voxels, or have another
- * volume, and what may help; empty: none
+ * Make a block for each surface, with the arrays of labels.
+ * @param stopped `StopReason` of unfinished surfaces
+ * @return a warning about labels that are not represented well (`LostLabels`), or an empty string
  */
 std::string FillBlocks(const LabelChoice& choice, const LabelImage& image,
   const LabelSettings& settings, const std::vector<LabelSurface>& surfaces,
   vtkMultiBlockDataSet* output, const std::string& stopped);
 
-/** Names, colours and voxels of all labels, for a surface that has them all. */
+/** Add field data with the values, names, colors and voxels of all labels. */
 void AddLabelFields(const LabelChoice& choice, const LabelImage& image, vtkPolyData* surface);
 }
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelImage.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
 #include "Input/LabelValues.h"
 #include "Input/ValueHints.h"
-#include "Input/Workspace.h"
 #include "Labels/LabelNames.h"
 
 #include <vtkCellArray.h>
@@ -32,15 +32,15 @@ namespace volumic
 {
 namespace
 {
-/** Voxels that a thread takes at a time. */
+/** Voxels per task. */
 constexpr std::size_t Grain = 1 << 18;
 
-/** Voxels that follow each other along rows, and from row to row; `last` is one of them. */
+/** Return the number and extent of the voxels from `first` to `last`, in the order of memory. */
 LabelVoxels RunOf(const int* extent, vtkIdType first, vtkIdType last)
 {
   const vtkIdType row = extent[1] - extent[0] + 1;
   const vtkIdType slice = row * (extent[3] - extent[2] + 1);
-  const auto index = [&](vtkIdType place) { return static_cast<int>(place); };
+  const auto index = [](vtkIdType value) { return static_cast<int>(value); };
   LabelVoxels run;
   run.Count = last - first + 1;
   std::copy_n(extent, 6, run.Extent.begin());
@@ -75,20 +75,20 @@ void LabelVoxels::Add(const LabelVoxels& others)
 LabelImage::LabelImage(
   vtkDataObject* input, vtkInformation* selection, int background, Executor& executor)
 {
-  const PointVoxels points = TakeCellsAsPoints(ImageOf(input), selection);
+  const PointVoxels points = ConvertCellsToPoints(ImageOf(input), selection);
   this->Voxels = ContiguousVoxels(ChooseVoxels(points.Selection, points.Image));
   this->Geometry = points.Image;
   const int* size = this->Geometry->GetDimensions();
   if (std::min({ size[0], size[1], size[2] }) < 2)
   {
-    Refuse("the image has ", SizeOf(this->Geometry),
-      " voxels; it must have at least 2 along each axis. A label map of one slice has contours "
-      "only: apply Contour (vtkFlyingEdges2D) to it.");
+    ThrowInvalidArgument("the image has ", SizeOf(this->Geometry),
+      " voxels; it must have at least 2 along each axis. For contours of a single slice apply "
+      "Contour (vtkFlyingEdges2D).");
   }
   LabelValues values = LabelValuesOf(this->Voxels, background, MostLabels, executor);
   this->Voxels = values.Voxels;
   this->Numbers = std::move(values.Numbers);
-  this->Told = std::move(values.Told);
+  this->Conversions = std::move(values.Conversions);
   this->CountLabels(executor);
 }
 
@@ -129,21 +129,22 @@ void LabelImage::CheckNumberOfLabels() const
 {
   if (this->Counts.size() > MostLabels)
   {
-    Refuse(NameOf(this->Voxels), " has ", this->Counts.size(), " different values, more than ",
-      MostLabels,
-      ": it is likely no label map. For the surface of a volume apply Volume to Surface "
-      "(vtkVolumeToSurface); of a label map choose some of its Labels.");
+    ThrowInvalidArgument(NameOf(this->Voxels), " has ", this->Counts.size(),
+      " different values, more than ", MostLabels,
+      "; it is probably not a label map. Select some Labels if it is. For the surface of a scan "
+      "apply "
+      "Volume to Surface (vtkVolumeToSurface).");
   }
 }
 
-std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int background) const
+std::vector<int> LabelImage::Choose(const std::vector<int>& requested, int background) const
 {
-  std::vector<int> labels = wanted;
-  if (wanted.empty() || wanted.size() > MostLabels)
+  std::vector<int> labels = requested;
+  if (requested.empty() || requested.size() > MostLabels)
   {
     this->CheckNumberOfLabels();
   }
-  if (wanted.empty())
+  if (requested.empty())
   {
     for (const auto& entry : this->Counts)
     {
@@ -157,21 +158,21 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
   labels.erase(std::unique(labels.begin(), labels.end()), labels.end());
   if (labels.empty())
   {
-    Refuse(NameOf(this->Voxels), " has no label but Background Label, ", background,
-      ": there is nothing to make a surface of. Choose another Background Label.");
+    ThrowInvalidArgument(NameOf(this->Voxels), " has no label except Background Label, ",
+      background, ". Choose another Background Label.");
   }
   for (const int label : labels)
   {
     if (this->Counts.find(label) == this->Counts.end())
     {
       constexpr std::size_t mostListed = 20;
-      std::vector<std::string> there;
+      std::vector<std::string> present;
       for (const auto& entry : this->Counts)
       {
-        there.push_back(std::to_string(entry.first));
+        present.push_back(std::to_string(entry.first));
       }
-      Refuse("Labels: ", NameOf(this->Voxels), " has no label ", label, "; it has ",
-        Listed(there, mostListed), ".");
+      ThrowInvalidArgument("Labels: ", NameOf(this->Voxels), " has no label ", label,
+        ". Select from ", Listed(present, mostListed), ".");
     }
   }
   return labels;
@@ -180,13 +181,13 @@ std::vector<int> LabelImage::Choose(const std::vector<int>& wanted, int backgrou
 LabelMap LabelImage::MakeMap(const std::vector<int>& selected, bool merge, int background,
   std::vector<int>& objects, Executor& executor) const
 {
-  constexpr int beyond = 8; // numbers behind all objects that others have
+  constexpr int reserved = 8; // numbers after the objects, such as the sides of the box
   const int* size = this->Geometry->GetDimensions();
   LabelMap map({ size[0], size[1], size[2] });
-  map.Spacing = Workspace(this->Geometry, Metric::World).Step();
+  map.Spacing = ComputationalSpace(this->Geometry, Metric::World).Step();
   std::unordered_map<int, LabelMap::Number> numbers;
   int room =
-    std::numeric_limits<LabelMap::Number>::max() - beyond - static_cast<int>(selected.size());
+    std::numeric_limits<LabelMap::Number>::max() - reserved - static_cast<int>(selected.size());
   for (const auto& [label, voxels] : this->Counts)
   {
     const bool isSelected = std::binary_search(selected.begin(), selected.end(), label);
@@ -234,8 +235,8 @@ std::string LabelImage::ScanWarning(int background) const
 void LabelImage::FindNearest(
   vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const
 {
-  const Workspace space(this->Geometry, Metric::Voxels);
-  const Point step = Workspace(this->Geometry, Metric::World).Step();
+  const ComputationalSpace space(this->Geometry, Metric::Voxels);
+  const Point step = ComputationalSpace(this->Geometry, Metric::World).Step();
   const int* size = this->Geometry->GetDimensions();
   const VoxelBox all = VoxelBox::Of({ size[0], size[1], size[2] });
   auto cells = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
@@ -244,17 +245,17 @@ void LabelImage::FindNearest(
     vtkIdType count = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(count, corners);
-    double of[3][3];
+    double points[3][3];
     for (int c = 0; c < 3; ++c)
     {
-      surface->GetPoint(corners[c], of[c]);
+      surface->GetPoint(corners[c], points[c]);
     }
     Point centroid;
-    vtkTriangle::TriangleCenter(of[0], of[1], of[2], centroid.data());
-    const Point place = space.ToWorkspace(centroid);
+    vtkTriangle::TriangleCenter(points[0], points[1], points[2], centroid.data());
+    const Point position = space.ToComputationalSpace(centroid);
     int nearest = labels.front();
     double least = std::numeric_limits<double>::max();
-    // A surface has voxels of its own among the 4 x 4 x 4 about each place.
+    // A surface has voxels of its labels among the 4 x 4 x 4 around each position.
     for (int n = 0; n < 64; ++n)
     {
       const std::array<int, 3> offset = { n % 4 - 1, n / 4 % 4 - 1, n / 16 - 1 };
@@ -262,8 +263,8 @@ void LabelImage::FindNearest(
       double square = 0.0;
       for (int axis = 0; axis < 3; ++axis)
       {
-        at[axis] = static_cast<int>(std::floor(place[axis])) + offset[axis];
-        square += std::pow((at[axis] - place[axis]) * step[axis], 2.0);
+        at[axis] = static_cast<int>(std::floor(position[axis])) + offset[axis];
+        square += std::pow((at[axis] - position[axis]) * step[axis], 2.0);
       }
       if (square >= least || !all.Contains(at))
       {

@@ -23,61 +23,61 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** The voxels of a label. */
+/** Number and extent of the voxels of a label. */
 struct LabelVoxels
 {
   vtkIdType Count = 0;
-  /** Indices of the first and last along each axis, as an extent of VTK. */
+  /** Indices of the first and last voxel along each axis. */
   std::array<int, 6> Extent = { 0, -1, 0, -1, 0, -1 };
 
   void Add(const LabelVoxels& others);
 };
 
-/** A label map as it comes in. Errors are std::invalid_argument. */
+/** An input label map. Errors are InvalidArgument exceptions. */
 class LabelImage
 {
 public:
-  /** More labels than this are no label map, where nobody has chosen some of them. */
+  /** Maximum number of labels, unless some are selected. */
   static constexpr std::size_t MostLabels = 4096;
 
   /**
-   * @param selection as GetInputArrayInformation()
-   * @throws where there is no image of three axes, or no array of one component whose values are
-   *         labels as LabelValuesOf() has them.
+   * @param selection selection of the array, from GetInputArrayInformation()
+   * @throws InvalidArgument if there is no 3D image, or no array of one component with labels, see
+   *   LabelValuesOf()
    */
   LabelImage(vtkDataObject* input, vtkInformation* selection, int background, Executor& executor);
 
-  /** Voxels are its points; without arrays that matter. */
+  /** Return the geometry. Voxels are points. */
   vtkImageData* Image() const { return this->Geometry; }
   const std::map<int, LabelVoxels>& Labels() const { return this->Counts; }
-  /** Labels of the image, as texts, that no int holds, by the numbers that they have here. */
+  /** Return the original values of labels outside the range of int, by their new numbers. */
   const std::map<int, std::string>& RenumberedLabels() const { return this->Numbers; }
-  /** What the user should know: what was done to make labels of the values. Empty: nothing. */
-  const std::string& Warning() const { return this->Told; }
+  /** Return a warning about conversions of the values, or an empty string. */
+  const std::string& Warning() const { return this->Conversions; }
 
-  /** @throws where there are more than MostLabels. */
+  /** @throws InvalidArgument if there are more than MostLabels */
   void CheckNumberOfLabels() const;
 
   /**
-   * Sorted: those that are wanted; all but the background where none are.
-   * @throws where there are none, or too many, or one is not there.
+   * Return the requested labels, sorted. If there are none, return all except the background.
+   * @throws InvalidArgument if there are none or too many, or if the image lacks a requested one
    */
-  std::vector<int> Choose(const std::vector<int>& wanted, int background) const;
+  std::vector<int> Choose(const std::vector<int>& requested, int background) const;
 
   /**
-   * Return a map whose objects are all labels but the background, in the order of their values, so
-   * that numbers do not depend on the selection. Merged labels are one object. Where there are more
-   * labels than numbers, the last that are not selected are background.
-   * @param selected the labels that get surfaces, sorted
-   * @param objects  set to theirs
+   * Return a map whose objects are all labels except the background, in the order of their values,
+   * so that numbers do not depend on the selection. Merged labels are one object. If there are more
+   * labels than numbers, the last labels that are not selected become background.
+   * @param selected labels that get surfaces, sorted
+   * @param objects  set to the objects of these labels
    */
   LabelMap MakeMap(const std::vector<int>& selected, bool merge, int background,
     std::vector<int>& objects, Executor& executor) const;
 
-  /** Return a warning if the voxels look like those of a scan, else nothing. */
+  /** Return a warning if the voxels look like a scan, or an empty string. */
   std::string ScanWarning(int background) const;
 
-  /** For each triangle the label of the voxel nearest to its centroid, of those given, sorted. */
+  /** For each triangle find the label, out of `labels` (sorted), nearest to its centroid. */
   void FindNearest(vtkPolyData* surface, const std::vector<int>& labels, vtkIntArray* found) const;
 
 private:
@@ -87,7 +87,7 @@ private:
   vtkSmartPointer<vtkDataArray> Voxels;
   std::map<int, LabelVoxels> Counts;
   std::map<int, std::string> Numbers;
-  std::string Told;
+  std::string Conversions;
 };
 }
 

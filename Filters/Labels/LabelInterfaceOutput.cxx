@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What LabelInterfaceMaker makes of its mesh: poly data in world coordinates.
+// The outputs of LabelInterfaceMaker: poly data in world coordinates.
 
 #include "Labels/LabelInterfaces.h"
 
 #include "Core/Interfaces/InterfaceSizes.h"
-#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/JunctionWedges.h"
 #include "Output/SurfaceOutput.h"
 
 #include <vtkCellArray.h>
@@ -67,10 +67,10 @@ float LabelInterfaceMaker::ResidualAt(int v, int object) const
   const Vector& position = this->Mesh.Position[static_cast<std::size_t>(v)];
   std::vector<int> objects;
   this->Mesh.FindObjects(v, objects);
-  const int part = *std::find_if(objects.begin(), objects.end(),
-    [&](int other) { return this->Map.Whole(other) == object; });
+  const int part = *std::find_if(
+    objects.begin(), objects.end(), [&](int other) { return this->Map.Whole(other) == object; });
   const float own = this->Fields->ValueAt(part, position);
-  // Where there are only sides of the box beside it, it is where it should be.
+  // A vertex between an object and sides of the box has no residual.
   float others =
     objects.size() == 1 || this->Mesh.IsSide(objects[1]) ? own : -2.f * LabelField::Far;
   for (const int other : objects)
@@ -91,7 +91,8 @@ SurfaceResult LabelInterfaceMaker::ResultOf(int object, const std::vector<int>& 
   for (std::size_t n = 0; n < faces.size(); ++n)
   {
     const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(faces[n])];
-    const VectorD across = this->Mesh.NormalOf(face) * (this->Map.Whole(face.Behind) == object ? 1.0 : -1.0);
+    const VectorD across =
+      this->Mesh.NormalOf(face) * (this->Map.Whole(face.Behind) == object ? 1.0 : -1.0);
     for (const int corner : surface.Triangles[n])
     {
       normals[static_cast<std::size_t>(corner)] += across;
@@ -190,7 +191,7 @@ std::vector<LabelSurface> LabelInterfaceMaker::Surfaces(HostThreads& threads) co
 void LabelInterfaceMaker::AddLineFields(
   const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const
 {
-  const LineWedge worst = NarrowestWedge(this->Mesh, lines);
+  const JunctionWedge worst = NarrowestWedge(this->Mesh, lines);
   if (worst.Edge[0] < 0)
   {
     return;
@@ -262,7 +263,7 @@ vtkSmartPointer<vtkPolyData> LabelInterfaceMaker::Interfaces(
   {
     if (this->IsShown(face))
     {
-      // The normal points away from what is selected.
+      // The normal points away from the selected object.
       const bool isTurned = this->SelectionOf(face.Behind) < 0;
       const int second = this->Space.IsMirrored() != isTurned ? 2 : 1;
       triangles->InsertNextCell(

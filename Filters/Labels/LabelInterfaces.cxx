@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Labels/LabelInterfaces.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Interfaces/MismatchedVoxels.h"
-#include "Core/Labels/MapBeyond.h"
+#include "Core/Labels/LabelMapPadding.h"
 #include "Core/Labels/SmallParts.h"
 #include "Core/Surface/SizingField.h"
 #include "Settings/SegmentationSettings.h"
@@ -24,8 +24,8 @@ namespace volumic
 namespace
 {
 /**
- * Voxels of nothing about the objects: whole bricks, as far as the Gaussian reaches, less the brick
- * beyond the map that fields have.
+ * Return the margin around the objects in voxels: whole bricks that cover the Gaussian, minus one
+ * brick, which fields add beyond the map.
  */
 int MarginFor(double sigma)
 {
@@ -34,14 +34,14 @@ int MarginFor(double sigma)
   return std::max(1, (reach + side - 1) / side) * side;
 }
 
-/** A period, at least, in wanted edges: what is at its two ends is far from each other. */
-constexpr double LeastPeriod = 4.;
+/** Minimum period in edge lengths. Its two ends must not be close to each other. */
+constexpr double MinimumPeriod = 4.;
 
-/** Share by which a part's volume is wrong. */
-constexpr double MostOff = 0.25;
+/** Relative volume error above which a part counts in `WrongParts`. */
+constexpr double MaximumVolumeError = 0.25;
 
-/** Of the whole work. */
-constexpr double FieldShare = 0.4;
+/** Fraction of the fields in the progress. */
+constexpr double FieldFraction = 0.4;
 
 /** Return the box of all objects, or of the whole map, in whole bricks. */
 VoxelBox BoxOf(const LabelMap& map, bool isWhole)
@@ -53,7 +53,7 @@ VoxelBox BoxOf(const LabelMap& map, bool isWhole)
     { box = object > 0 ? box.With(part) : box; });
   for (int axis = 0; axis < 3; ++axis)
   {
-    box.First[axis] -= box.First[axis] % side; // What is about does not matter.
+    box.First[axis] -= box.First[axis] % side;
     box.End[axis] += (side - box.Length(axis) % side) % side;
   }
   return box;
@@ -66,7 +66,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
     Space(image, static_cast<Metric>(settings.Metric))
 {
   const bool isFlat = settings.HasFlatBox();
-  // With flat faces fields are those of labels that go on beyond them, for the whole Gaussian.
+  // With flat faces labels continue beyond them, for the whole Gaussian.
   const int margin = MarginFor(settings.FieldOptions(map).Sigma) + (isFlat ? LabelBricks::Side : 0);
   const VoxelBox box = BoxOf(map, settings.IsPeriodic()).Grown(margin);
   this->First = box.First;
@@ -79,7 +79,7 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
       static_cast<double>(VoxelBox::Of(map.Size()).Count()) + 1.0);
     this->WholeMap = map.Part(box);
     this->WholeBricks.emplace(this->WholeMap, threads);
-    GiveAwaySmallParts(map, this->Selected, static_cast<std::int64_t>(least),
+    ReassignSmallParts(map, this->Selected, static_cast<std::int64_t>(least),
       keep == KeepComponentsType::LargestComponent);
   }
   this->Map = map.Part(box);
@@ -93,16 +93,15 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
   {
     this->CheckPeriod();
   }
-  if (!settings.IsPeriodic()) // There what is cut off by a side goes on at the other one.
+  if (!settings.IsPeriodic()) // Parts of a periodic map may continue at the opposite side.
   {
     SeparateParts(this->Map);
   }
   if (isFlat)
   {
-    GoOnBeyond(this->Map, this->InImage, settings.IsPeriodic());
+    PadLabelMap(this->Map, this->InImage, settings.IsPeriodic());
   }
-  this->Bricks.emplace(
-    this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
+  this->Bricks.emplace(this->Map, threads, isFlat ? this->InImage : VoxelBox::Of(this->Map.Size()));
 }
 
 void LabelInterfaceMaker::CheckPeriod() const
@@ -112,12 +111,12 @@ void LabelInterfaceMaker::CheckPeriod() const
   for (int axis = 0; axis < 3; ++axis)
   {
     const double period = this->InImage.Length(axis) * this->Space.Step()[axis];
-    if (period < LeastPeriod * edge)
+    if (period < MinimumPeriod * edge)
     {
-      Refuse("Box Faces are to be periodic, but the volume is only ",
-        period * this->Space.WorldUnit(), " wide along ", "xyz"[axis], ": it must be ", LeastPeriod,
-        " Edge Lengths, which are ", edge * this->Space.WorldUnit(),
-        ". Set a shorter Edge Length, or Box Faces to flat.");
+      ThrowInvalidArgument("Box Faces is periodic, but the length of the image along ", "xyz"[axis],
+        " is ", period * this->Space.WorldUnit(), ", less than ", MinimumPeriod,
+        " edge lengths of ", edge * this->Space.WorldUnit(),
+        ". Set a shorter Edge Length, or set Box Faces to flat.");
     }
   }
 }
@@ -145,34 +144,35 @@ InterfaceOptions LabelInterfaceMaker::Options() const
 void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
 {
   const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<bool> goesOn{ true };
+  std::atomic<bool> continues{ true };
   using Clock = std::chrono::steady_clock;
-  Clock::time_point last; // When the host was asked, and told what.
-  double told = 0.0;
-  const auto tell = [&](double share, const char* text)
+  Clock::time_point last; // time of the last report
+  double reported = 0.0;
+  const auto report = [&](double fraction, const char* text)
   {
     constexpr std::chrono::milliseconds interval(50);
     constexpr double step = 0.01;
     if (std::this_thread::get_id() == caller &&
-      (share >= told + step || Clock::now() - last >= interval))
+      (fraction >= reported + step || Clock::now() - last >= interval))
     {
-      told = share;
-      goesOn = goesOn.load() && progress(share, text);
+      reported = fraction;
+      continues = continues.load() && progress(fraction, text);
       last = Clock::now();
     }
-    return goesOn.load();
+    return continues.load();
   };
   this->Fields.emplace(
     *this->Bricks, this->Settings.FieldOptions(this->Map), this->Space.Step(), threads,
-    [&](double share) { return tell(FieldShare * share, "Fields of the labels"); },
+    [&](double fraction) { return report(FieldFraction * fraction, "Fields of the labels"); },
     this->Settings.IsPeriodic());
-  if (goesOn)
+  if (continues)
   {
     this->Mesh = MakeInterfaces(*this->Fields, this->Options(), threads,
-      [&](double share)
-      { return tell(FieldShare + (1.0 - FieldShare) * share, "Interfaces of the labels"); });
+      [&](double fraction) {
+        return report(FieldFraction + (1.0 - FieldFraction) * fraction, "Interfaces of the labels");
+      });
   }
-  this->IsFinished = goesOn;
+  this->IsFinished = continues;
   this->CountVoxels(threads);
   this->IdOf.assign(this->Mesh.Position.size(), -1);
   for (const InterfaceMesh::Face& face : this->Mesh.Faces)
@@ -206,8 +206,8 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
       volumes[face.Front] -= volume;
     }
   }
-  const auto isOff = [](double volume, double voxels, double most)
-  { return std::abs(volume - voxels) > most * voxels; };
+  const auto isWrong = [](double volume, double voxels)
+  { return std::abs(volume - voxels) > MaximumVolumeError * voxels; };
   this->Counts.assign(volumes.size(), LabelSurface());
   std::vector<double> ofWhole(volumes.size(), 0.);
   std::vector<double> voxelsOfWhole = ofWhole;
@@ -219,18 +219,18 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     ofWhole[whole] += volumes[object];
     voxelsOfWhole[whole] += voxels;
     this->Counts[whole].Parts += voxels > 0. ? 1 : 0;
-    this->Counts[whole].WrongParts += isOff(volumes[object], voxels, MostOff) ? 1 : 0;
+    this->Counts[whole].MisclassifiedParts += isWrong(volumes[object], voxels) ? 1 : 0;
   }
   const std::vector<MismatchedVoxel> mismatched =
     FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->InImage, step,
       this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
-    const LabelMap::Number of[2] = { map.Whole(voxel.OfMap), map.Whole(voxel.OfMesh) };
-    for (const LabelMap::Number object : of)
+    const LabelMap::Number objects[2] = { map.Whole(voxel.MapObject), map.Whole(voxel.MeshObject) };
+    for (const LabelMap::Number object : objects)
     {
-      this->Counts[object].WrongVoxels += of[0] != of[1] ? 1 : 0;
-      this->Counts[object].MissedVoxels += of[0] != of[1] && voxel.IsFar ? 1 : 0;
+      this->Counts[object].MisclassifiedVoxels += objects[0] != objects[1] ? 1 : 0;
+      this->Counts[object].MissedVoxels += objects[0] != objects[1] && voxel.IsFar ? 1 : 0;
     }
   }
   for (std::size_t object = 1; object < volumes.size(); ++object)

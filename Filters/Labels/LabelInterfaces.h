@@ -11,7 +11,7 @@
 #include "Core/Labels/LabelBricks.h"
 #include "Core/Labels/LabelMap.h"
 #include "Host/HostThreads.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Labels/LabelSettings.h"
 
 #include <vtkSmartPointer.h>
@@ -31,59 +31,59 @@ namespace volumic
 /** The surface of one object of a label map. */
 struct LabelSurface
 {
-  vtkSmartPointer<vtkPolyData> Surface; ///< null: the run was stopped before there was one
-  vtkIdType WrongVoxels = 0;            ///< misclassified voxels
-  vtkIdType MissedVoxels = 0; ///< misclassified voxels further from the surface than the tolerances
-  double VolumeError = 0.0;   ///< enclosed volume over the voxels' volume, less 1
-  vtkIdType Parts = 0;        ///< of voxels joined by faces, edges or corners
-  vtkIdType WrongParts = 0;   ///< those whose volume is off by more than a quarter
-  bool IsFinished = false;    ///< The run was not stopped.
+  vtkSmartPointer<vtkPolyData> Surface; ///< null: the run was stopped earlier
+  vtkIdType MisclassifiedVoxels = 0;
+  vtkIdType MissedVoxels = 0; ///< misclassified voxels farther from the surface than the tolerances
+  double VolumeError = 0.0;   ///< enclosed volume divided by the volume of the voxels, minus 1
+  vtkIdType Parts = 0;        ///< parts of voxels joined by faces, edges or corners
+  vtkIdType MisclassifiedParts = 0; ///< parts whose volume differs by more than a quarter
+  bool IsFinished = false;          ///< The run was not stopped.
 };
 
-/** Makes one mesh of all objects of a label map, and the surfaces of those that are selected. */
+/** Computes one mesh of all objects of a label map, and the surfaces of the selected ones. */
 class LabelInterfaceMaker
 {
 public:
-  /** Called with the share that is done, on the calling thread; false requests to stop. */
-  using Progress = std::function<bool(double share, const std::string& text)>;
+  /** Called with the finished fraction on the calling thread. Return false to stop. */
+  using Progress = std::function<bool(double fraction, const std::string& text)>;
 
   /**
-   * @param map      with all objects, so that a surface does not depend on which are selected
-   * @param selected the objects that get surfaces, sorted
-   * @param image    its geometry is the map's
-   * Settings must outlive it.
-   * @throws std::invalid_argument if BoxFaces are periodic, and the map is not, or is too short.
+   * @param map      map with all objects, so that surfaces do not depend on the selection
+   * @param selected objects that get surfaces, sorted
+   * @param image    geometry of the map
+   * @param settings settings, which must outlive this object
+   * @throws InvalidArgument with periodic BoxFaces, if the map is not periodic or too short
    */
   LabelInterfaceMaker(LabelMap map, std::vector<int> selected, vtkImageData* image,
     const LabelSettings& settings, HostThreads& threads);
 
-  /** After progress has returned false the mesh is what there is by then, and not finished. */
+  /** Compute the mesh. It remains unfinished if `progress` returns false. */
   void Make(HostThreads& threads, const Progress& progress);
 
-  /** Return a surface per selected object, whose `GlobalIds` are points of Interfaces(). */
+  /** Return a surface per selected object. `GlobalIds` are the points of Interfaces(). */
   std::vector<LabelSurface> Surfaces(HostThreads& threads) const;
 
   /**
-   * Return the interfaces with a selected object on a side, each once, and the lines where they
-   * meet, with the arrays that vtkLabelsToSurfaces documents.
-   * @param labels  of the selected objects
-   * @param outside the value of all else
+   * Return the interfaces of selected objects, each once, and the junction lines, with the arrays
+   * that vtkLabelsToSurfaces documents.
+   * @param labels  labels of the selected objects
+   * @param outside label of all other objects
    */
   vtkSmartPointer<vtkPolyData> Interfaces(const std::vector<int>& labels, int outside) const;
 
 private:
-  /** @throws std::invalid_argument if the map is not periodic, or too short. */
+  /** @throws InvalidArgument if the map is not periodic, or too short */
   void CheckPeriod() const;
   InterfaceOptions Options() const;
-  /** Return the place of an object among those that are selected; -1: it is not. */
+  /** Return the index of an object in Selected, or -1. */
   int SelectionOf(int object) const;
   bool IsShown(const InterfaceMesh::Face& face) const
   {
     return this->SelectionOf(face.Behind) >= 0 || this->SelectionOf(face.Front) >= 0;
   }
-  /** Return the mean edge length in the workspace. */
+  /** Return the mean edge length in computational space. */
   double EdgeLength() const;
-  /** Return the edges of junction lines at which there are faces of Interfaces(). */
+  /** Return the edges of junction lines with faces in Interfaces(). */
   std::vector<std::array<int, 2>> ShownLines() const;
   /** Add the field data of junction lines, if there are any. */
   void AddLineFields(const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
@@ -92,9 +92,9 @@ private:
     const std::vector<int>& vertices) const;
   /** Compare all objects with their voxels. */
   void CountVoxels(HostThreads& threads);
-  /** Return how far the fields have the interface from a vertex of an object, world units. */
+  /** Return the distance of a vertex of an object from the interface in its fields, world units. */
   float ResidualAt(int v, int object) const;
-  /** Return the position of a vertex in the workspace, exact in flat faces of the box. */
+  /** Return the position of a vertex in computational space, exact in flat faces of the box. */
   Point PositionOf(int v) const;
   /** Return the side of the image that a face lies in, 1 to 6: x-min, x-max ...; 0: none. */
   unsigned char BoxFaceOf(const InterfaceMesh::Face& face) const
@@ -105,17 +105,17 @@ private:
 
   const LabelSettings& Settings;
   std::vector<int> Selected;              ///< objects, sorted
-  std::array<int, 3> First = { 0, 0, 0 }; ///< voxel of the image that is that of Map
-  LabelMap Map;                           ///< of the box, with its margin
-  LabelMap WholeMap; ///< the same with the parts that Keep Components leaves out, if it does
-  VoxelBox InImage;  ///< of Map what is in the image
-  Workspace Space;
+  std::array<int, 3> First = { 0, 0, 0 }; ///< first voxel of Map in the image
+  LabelMap Map;                           ///< the box of all objects, with a margin
+  LabelMap WholeMap; ///< with the parts that KeepComponents removes from Map; empty if none
+  VoxelBox InImage;  ///< the part of Map inside the image
+  ComputationalSpace Space;
   std::optional<LabelBricks> Bricks;
-  std::optional<LabelBricks> WholeBricks; ///< of WholeMap
+  std::optional<LabelBricks> WholeBricks; ///< bricks of WholeMap
   std::optional<InterfaceFields> Fields;
   InterfaceMesh Mesh;
-  std::vector<LabelSurface> Counts; ///< numbers of each object, parts aside, without a surface
-  std::vector<int> IdOf; ///< of each vertex its point in Interfaces(), -1: it has none
+  std::vector<LabelSurface> Counts; ///< counts of each object, without a surface
+  std::vector<int> IdOf;            ///< the point of each vertex in Interfaces(), or -1
   bool IsFinished = false;
 };
 }

@@ -3,7 +3,7 @@
 #include "Labels/LabelNames.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <vtkDataArray.h>
 #include <vtkDataObject.h>
@@ -19,12 +19,12 @@ namespace volumic
 {
 namespace
 {
-void CheckEntries(vtkAbstractArray* array, vtkIdType wanted)
+void CheckEntries(vtkAbstractArray* array, vtkIdType requested)
 {
-  if (array && array->GetNumberOfTuples() != wanted)
+  if (array && array->GetNumberOfTuples() != requested)
   {
-    Refuse("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
-      " entries, 'LabelValues' has ", wanted, "; they must have as many.");
+    ThrowInvalidArgument("field array '", array->GetName(), "' has ", array->GetNumberOfTuples(),
+      " entries, but 'LabelValues' has ", requested, ". Provide an entry for each label.");
   }
 }
 }
@@ -45,8 +45,8 @@ LabelNames LabelNames::Of(vtkDataObject* image)
   CheckEntries(colors, count);
   if (colors && colors->GetNumberOfComponents() != 3)
   {
-    Refuse("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
-      " components; it needs 3: red, green, blue.");
+    ThrowInvalidArgument("field array 'LabelColors' has ", colors->GetNumberOfComponents(),
+      " components. Provide 3: red, green, blue.");
   }
   for (vtkIdType i = 0; i < count; ++i)
   {
@@ -100,8 +100,8 @@ LabelNames::Color LabelNames::ColorOf(int label) const
   {
     return found->second;
   }
-  // Of numbers chosen so that the first 30 labels differ by 17 (CIE 1976), the first 120 by 7.4,
-  // and that those of maps with one object, 1 and 255, are light enough to show its relief.
+  // With these constants the first 30 labels differ by 17 (CIE 1976), and the first 120 by 7.4. The
+  // colors of maps with one object, 1 and 255, are light enough to show its relief.
   const auto spread = [label](double step) { return step * label - std::floor(step * label); };
   constexpr double goldenRatio = 0.6180339887498949;
   const double hue = std::fmod(0.68 + spread(goldenRatio), 1.0);

@@ -13,7 +13,7 @@ class vtkDataObject;
 
 namespace volumic
 {
-/** What labels are called and how they are coloured. */
+/** Names and colors of labels. */
 struct LabelNames
 {
   using Color = std::array<double, 3>; ///< red, green, blue, 0 to 1
@@ -22,20 +22,20 @@ struct LabelNames
   std::map<int, Color> Colors;
 
   /**
-   * Those in the field data of a label map: `LabelValues`, and with as many entries `LabelNames`
-   * and `LabelColors`.
-   * @throws std::invalid_argument naming the array that has another number of entries.
+   * Return the names and colors in the field data of a label map: `LabelValues`, and with an entry
+   * for each value `LabelNames` and `LabelColors`.
+   * @throws InvalidArgument naming an array with another number of entries or components
    */
   static LabelNames Of(vtkDataObject* image);
 
-  /** What is missing here is taken from others. */
+  /** Add missing names and colors from others. */
   void Complete(const LabelNames& others);
 
-  /** Its name, or `Label 3`. */
+  /** Return the name, or `Label 3`. */
   std::string NameOf(int label) const;
-  /** `Label 3`, or `Labels 1, 3` for several without names. */
+  /** Return the name of a single label, or `Labels 1, 3`. */
   std::string NameOf(const std::vector<int>& labels) const;
-  /** Its colour, or one of a fixed palette. */
+  /** Return the color, or a color of a fixed palette. */
   Color ColorOf(int label) const;
 };
 

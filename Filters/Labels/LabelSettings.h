@@ -16,10 +16,10 @@ namespace volumic
 /** Properties of vtkLabelsToSurfaces, except the choice of labels. Numbers may be out of range. */
 struct LabelSettings
 {
-  double Smoothing = 2.0;      ///< smallest distances of voxels, or 5/8 of the longest
-  /** Smallest distances of voxels; -1: a quarter of Smoothing, at most 1. */
+  double Smoothing = 2.0; ///< in smallest voxel spacings, or in 5/8 of the largest if that is more
+  /** In smallest voxel spacings. -1: a quarter of Smoothing, at most 1. */
   double VoxelTolerance = -1.0;
-  int BoxFaces = 0; ///< where labels reach the border of the image: 0 rounded, 1 flat, 2 periodic
+  int BoxFaces = 0; ///< 0 rounded, 1 flat, 2 periodic
   int Metric = 1;
   double EdgeLength = 0.0;
   volumic::Grading Grading;
@@ -36,12 +36,12 @@ struct LabelSettings
   bool IsPeriodic() const { return this->BoxFaces == 2; }
 
   /**
-   * @param image its geometry is the map's
-   * @throws std::invalid_argument naming the property that is out of range.
+   * @param image geometry of the label map
+   * @throws InvalidArgument naming a property that is out of range
    */
   void Check(vtkImageData* image) const;
 
-  /** How the fields of the objects of a map are made. */
+  /** Return the options for the fields of a map. */
   LabelFieldOptions FieldOptions(const LabelMap& map) const;
 };
 }

@@ -19,7 +19,7 @@ namespace volumic
 {
 namespace
 {
-/** Set a shallow copy, so that a reader cannot change the kept surface. */
+/** Set a shallow copy, so that the kept surface cannot be changed. */
 void SetBlock(
   vtkMultiBlockDataSet* blocks, unsigned int block, const std::string& name, vtkPolyData* surface)
 {
@@ -60,7 +60,7 @@ void FinishedLevels::Add(
     level.All = std::make_shared<const SurfaceResult>(surface);
   }
   this->MakeSurface(level, std::move(surface), threads);
-  this->Levels[level.About.Level] = std::move(level);
+  this->Levels[level.Description.Level] = std::move(level);
 }
 
 void FinishedLevels::MakeSurface(
@@ -68,7 +68,7 @@ void FinishedLevels::MakeSurface(
 {
   const bool isAny = !surface.Points.empty();
   level.Surface =
-    MakePolyData(std::move(surface), level.About, this->Space, this->Choice, threads);
+    MakePolyData(std::move(surface), level.Description, this->Space, this->Choice, threads);
   level.KeepsNone = isAny && level.Surface->GetNumberOfPoints() == 0;
 }
 
@@ -83,7 +83,7 @@ vtkSmartPointer<vtkPolyData> FinishedLevels::LeftOut(int last, Executor& threads
   const FinishedLevel& level = found->second;
   ComponentChoice others = this->Choice;
   others.IsInverted = true;
-  return MakePolyData(*level.All, level.About, this->Space, others, threads);
+  return MakePolyData(*level.All, level.Description, this->Space, others, threads);
 }
 
 void FinishedLevels::Forget(int level)
@@ -94,10 +94,10 @@ void FinishedLevels::Forget(int level)
     this->Snapshots.end());
 }
 
-bool FinishedLevels::HasAtRest(int level) const
+bool FinishedLevels::HasConverged(int level) const
 {
   const auto found = this->Levels.find(level);
-  return found != this->Levels.end() && found->second.IsAtRest;
+  return found != this->Levels.end() && found->second.IsConverged;
 }
 
 vtkSmartPointer<vtkPolyData> FinishedLevels::Outcome(int last) const
@@ -123,7 +123,7 @@ void FinishedLevels::FillOutputs(int last, vtkInformationVector* outputs) const
   {
     const auto found = this->Levels.find(level);
     const bool isThere = level >= last && found != this->Levels.end();
-    // That of level -1 comes after those of the pyramid.
+    // The block of level -1 is the last.
     SetBlock(levels, static_cast<unsigned int>(level < 0 ? this->NumberOfLevels : level),
       Join("Level ", level), isThere ? found->second.Surface.GetPointer() : nullptr);
   }
@@ -146,48 +146,46 @@ void FinishedLevels::FillOutputs(int last, vtkInformationVector* outputs) const
   vtkMultiBlockDataSet::GetData(outputs, 3)->ShallowCopy(snapshots);
 }
 
-std::string FinishedLevels::WarningOf(int last, bool wantsAll) const
+std::string FinishedLevels::WarningOf(int last, bool warnsOfMissing) const
 {
-  // The field data tell the rest; what is worth a warning needs another choice to be made.
+  // Warn only if other settings are necessary. Field data have the rest.
   const auto end = this->Levels.lower_bound(last);
-  if (end == this->Levels.end() || !end->second.IsAtRest)
+  if (end == this->Levels.end() || !end->second.IsConverged)
   {
     return "";
   }
-  const SurfaceDescription& about = end->second.About;
-  if (about.StopReason == Describe(StopReason::Vanished))
+  const SurfaceDescription& description = end->second.Description;
+  if (description.StopReason == Describe(StopReason::Vanished))
   {
-    return Join("Nothing is left of the surface at level ", about.Level,
-      ": the object is too thin for it. ",
+    return Join("The surface has vanished at level ", description.Level,
+      ": the object is too thin for this level. ",
       this->Coarsest > 0
         ? "Set Coarsest Level to a finer level."
-        : "No level is finer: check Iso Value and Object Is Bright, or resample the image.");
+        : "Check Iso Value and Object Is Bright, or resample the image more finely.");
   }
   if (end->second.KeepsNone)
   {
-    return Join("Level ", about.Level,
+    return Join("The surface of level ", description.Level, " is empty: ",
       this->Choice.Seeds.empty() || this->Choice.Mode != KeepComponentsType::AllComponents
-        ? ": Keep Components leaves none of the components."
-        : ": no component is at a seed, as the object is too thin there. Set Finest Level to a "
-          "finer level, or move the seeds.");
+        ? "Keep Components selects none of the components. Choose other components."
+        : "no component is at a seed, as the object is too thin there. Set Finest Level to a finer "
+          "level, or move the seeds.");
   }
-  if (about.Lost.MissingBoundary > NotableShare && wantsAll)
+  if (description.Missed.MissingBoundary > NotableFraction && warnsOfMissing)
   {
-    const int lost = about.Lost.Found + about.Lost.FoundCavities;
+    const MissedParts& missed = description.Missed;
+    const int found = missed.Found + missed.FoundCavities;
     const std::string parts =
-      Join(lost, lost == 1 ? " part" : " parts", " that coarser levels had lost");
-    const std::string what = about.Lost.Missing == 0 ? "thin ends of " + parts
-      : about.Lost.Missing == lost
-      ? "all of " + parts
-      : Join(about.Lost.Missing, " of ", parts, ", and thin ends of others");
-    return Join(std::lround(100.0 * about.Lost.MissingBoundary),
-      " % of the object's boundary at level ", about.Level, " is not on the surface: ", what,
-      ", too thin for triangles of this size or too near to the rest. ",
-      about.Level > 0
-        ? "Set Finest Level to a finer level."
-        : (about.Level == 0
-              ? "Set Finest Level to -1, which has smaller ones, or resample the image."
-              : "Resample the image more finely."));
+      Join(found, found == 1 ? " part" : " parts", " missed by coarser levels");
+    const std::string what = missed.Missing == 0 ? "thin ends of " + parts
+      : missed.Missing == found                  ? "all of " + parts
+                                : Join(missed.Missing, " of ", parts, ", and thin ends of others");
+    return Join(std::lround(100.0 * missed.MissingBoundary),
+      " % of the object's boundary at level ", description.Level, " is not on the surface: ", what,
+      ". They are too thin for triangles of this size, or too near to other parts. ",
+      description.Level > 0      ? "Set Finest Level to a finer level."
+        : description.Level == 0 ? "Set Finest Level to -1, or resample the image more finely."
+                                 : "Resample the image more finely.");
   }
   return "";
 }

@@ -4,7 +4,7 @@
 #define volumicFinishedLevels_h
 
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Output/KeepComponents.h"
 #include "Output/SurfaceOutput.h"
 
@@ -24,23 +24,23 @@ namespace volumic
 /** A level with its final surface, converged or stopped. */
 struct FinishedLevel
 {
-  SurfaceDescription About;
-  bool IsAtRest = false;                    ///< false: stopped while it evolved
+  SurfaceDescription Description;
+  bool IsConverged = false;                 ///< false: the run was stopped at this level
   vtkSmartPointer<vtkPolyData> Surface;     ///< the selected components
   std::shared_ptr<const SurfaceResult> All; ///< all components; null: not kept
-  bool KeepsNone = false; ///< KeepComponents has removed all components.
+  bool KeepsNone = false;                   ///< the selection has removed all components
 };
 
-/** The finished levels of a run. They fill the outputs for any of these as the finest level. */
+/** The finished levels of a run, which fill the outputs with any of them as the finest level. */
 class FinishedLevels
 {
 public:
-  /** Missing share of the boundary of the object above which a warning is reported. */
-  static constexpr double NotableShare = 0.05;
+  /** MissingBoundary above which the run warns. */
+  static constexpr double NotableFraction = 0.05;
 
   FinishedLevels() = default;
   /** @param numberOfLevels number of levels of the pyramid */
-  FinishedLevels(int numberOfLevels, int coarsest, const Workspace& space)
+  FinishedLevels(int numberOfLevels, int coarsest, const ComputationalSpace& space)
     : NumberOfLevels(numberOfLevels), Coarsest(coarsest), Space(space)
   {
   }
@@ -51,7 +51,7 @@ public:
   /**
    * Add a level.
    * @param surface  all components
-   * @param keepsAll whether to keep them for another selection
+   * @param keepsAll whether to keep all for another selection
    */
   void Add(FinishedLevel level, SurfaceResult surface, bool keepsAll, Executor& threads);
   /** Remove a level and its snapshots. */
@@ -61,20 +61,23 @@ public:
     this->Snapshots.push_back({ level, { name, surface } });
   }
   /**
-   * Set the StopReason of output 0 for a run that was stopped before it reached the next level. The
-   * empty text resets it.
+   * Set the StopReason of output 0 for a run that was stopped before the next level. The empty text
+   * resets it.
    */
   void SetStopped(const std::string& reason) { this->StopReason = reason; }
 
   /** Return whether the surface of a level is converged. */
-  bool HasAtRest(int level) const;
+  bool HasConverged(int level) const;
   /**
-   * Return the components that are left out of output 0 of a run with `last` as its finest level.
-   * Null with AllComponents, or if they are not kept.
+   * Return the components that the selection removed from output 0, with `last` as the finest
+   * level. Return null with AllComponents, or if they are not kept.
    */
   vtkSmartPointer<vtkPolyData> LeftOut(int last, Executor& threads) const;
   /** Return the description of an added level. */
-  const SurfaceDescription& About(int level) const { return this->Levels.at(level).About; }
+  const SurfaceDescription& DescriptionOf(int level) const
+  {
+    return this->Levels.at(level).Description;
+  }
 
   /** Set the history of all levels. */
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
@@ -82,9 +85,9 @@ public:
   void FillOutputs(int last, vtkInformationVector* outputs) const;
   /**
    * Return the warning of a run with `last` as its finest level, or an empty text.
-   * @param wantsAll whether to report missing parts of the object
+   * @param warnsOfMissing whether to warn of missing parts of the object
    */
-  std::string WarningOf(int last, bool wantsAll) const;
+  std::string WarningOf(int last, bool warnsOfMissing) const;
 
 private:
   void MakeSurface(FinishedLevel& level, SurfaceResult surface, Executor& threads) const;
@@ -93,7 +96,7 @@ private:
 
   int NumberOfLevels = 0;
   int Coarsest = 0;
-  Workspace Space;
+  ComputationalSpace Space;
   ComponentChoice Choice;
   std::map<int, FinishedLevel> Levels;
   std::vector<std::pair<int, std::pair<std::string, vtkSmartPointer<vtkPolyData>>>> Snapshots;

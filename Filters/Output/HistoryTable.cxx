@@ -14,32 +14,24 @@ namespace volumic
 {
 namespace
 {
-/** A column: its name, and the number that a row has in it. */
+/** A column: its name, and the member of a row. */
 struct Column
 {
   const char* Name;
   std::variant<int HistoryRow::*, double HistoryRow::*> Member;
 };
 
-const Column Columns[] = { { "Iteration", &HistoryRow::Iteration },
-  { "Level", &HistoryRow::Level },
-  { "Vertices", &HistoryRow::Vertices },
-  { "KineticEnergy", &HistoryRow::KineticEnergy },
-  { "MeanEdgeLength", &HistoryRow::MeanEdgeLength },
-  { "Seconds", &HistoryRow::Seconds },
-  { "TimeStep", &HistoryRow::TimeStep },
-  { "ActiveVertices", &HistoryRow::ActiveVertices },
-  { "Merges", &HistoryRow::Merges },
-  { "Cuts", &HistoryRow::Cuts },
-  { "Splits", &HistoryRow::Splits },
-  { "Collapses", &HistoryRow::Collapses },
-  { "Flips", &HistoryRow::Flips },
-  { "EulerCharacteristic", &HistoryRow::EulerCharacteristic },
+const Column Columns[] = { { "Iteration", &HistoryRow::Iteration }, { "Level", &HistoryRow::Level },
+  { "Vertices", &HistoryRow::Vertices }, { "KineticEnergy", &HistoryRow::KineticEnergy },
+  { "MeanEdgeLength", &HistoryRow::MeanEdgeLength }, { "Seconds", &HistoryRow::Seconds },
+  { "TimeStep", &HistoryRow::TimeStep }, { "ActiveVertices", &HistoryRow::ActiveVertices },
+  { "Merges", &HistoryRow::Merges }, { "Cuts", &HistoryRow::Cuts },
+  { "Splits", &HistoryRow::Splits }, { "Collapses", &HistoryRow::Collapses },
+  { "Flips", &HistoryRow::Flips }, { "EulerCharacteristic", &HistoryRow::EulerCharacteristic },
   { "Components", &HistoryRow::Components } };
 }
 
-vtkSmartPointer<vtkTable> MakeHistoryTable(
-  std::vector<HistoryRow> rows, int last, double unit)
+vtkSmartPointer<vtkTable> MakeHistoryTable(std::vector<HistoryRow> rows, int last, double unit)
 {
   auto table = vtkSmartPointer<vtkTable>::New();
   const auto add = [&](const char* name, auto member)

@@ -14,9 +14,8 @@ class vtkTable;
 namespace volumic
 {
 /**
- * Return the History output of vtkDeformableSurface: a row per iteration on the levels down to
- * `last`.
- * @param unit length 1 of the computational space, in world units
+ * Return the output History of vtkDeformableSurface, a row per iteration down to level `last`.
+ * @param unit length 1 of the computational space in world units
  */
 vtkSmartPointer<vtkTable> MakeHistoryTable(std::vector<HistoryRow> rows, int last, double unit);
 }

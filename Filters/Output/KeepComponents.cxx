@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Output/KeepComponents.h"
 
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputPoints.h"
-#include "Input/Workspace.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <algorithm>
@@ -21,19 +21,19 @@ namespace volumic
 {
 namespace
 {
-/** Triangles that one thread looks at at a time. */
+/** Triangles per task. */
 constexpr std::size_t SpanSize = 16384;
 
 /**
- * For each place the innermost component that encloses it, -1 if none; `own` (may be empty) does
- * not count.
+ * Return the innermost component that encloses each position, or -1.
+ * @param own component of each position to ignore, may be empty
  */
-std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vector<int>& own,
+std::vector<int> FindEnclosing(const std::vector<Point>& positions, const std::vector<int>& own,
   const LargeVector<Point>& points, const LargeVector<Triangle>& triangles,
   const SurfaceFeatures& features, Executor& executor)
 {
-  const std::vector<std::vector<int>> about = ComponentsAbout(
-    places, own, triangles.size(),
+  const std::vector<std::vector<int>> enclosing = EnclosingComponents(
+    positions, own, triangles.size(),
     [&](std::size_t begin, std::size_t end, const auto& visit)
     {
       for (std::size_t t = begin; t < end; ++t)
@@ -44,11 +44,11 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
       }
     },
     executor);
-  std::vector<int> innermost(places.size(), -1);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  std::vector<int> innermost(positions.size(), -1);
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
     double least = 0.0;
-    for (const int component : about[i])
+    for (const int component : enclosing[i])
     {
       const double volume = std::abs(features.Components[component].Volume);
       if (innermost[i] < 0 || volume < least)
@@ -62,7 +62,7 @@ std::vector<int> InnermostAbout(const std::vector<Point>& places, const std::vec
 }
 
 /** Remove the points and triangles of all other components. */
-void LeaveShape(
+void SelectShape(
   SurfaceResult& surface, const SurfaceFeatures& features, const std::vector<bool>& isKept)
 {
   LargeVector<int> index(surface.Points.size(), -1);
@@ -96,9 +96,10 @@ void LeaveShape(
       }
       values.resize(values.empty() ? 0 : points);
     });
-  const auto isGone = [&](const std::array<int, 2>& pair)
+  const auto isRemoved = [&](const std::array<int, 2>& pair)
   { return index[pair[0]] < 0 || index[pair[1]] < 0; };
-  surface.Contacts.erase(std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isGone),
+  surface.Contacts.erase(
+    std::remove_if(surface.Contacts.begin(), surface.Contacts.end(), isRemoved),
     surface.Contacts.end());
   for (std::array<int, 2>& pair : surface.Contacts)
   {
@@ -111,7 +112,7 @@ void LeaveShape(
 }
 
 /** Remove the features of all other components. */
-void LeaveFeatures(
+void SelectFeatures(
   SurfaceFeatures& features, std::vector<int>& owners, const std::vector<bool>& isKept)
 {
   SurfaceFeatures kept;
@@ -150,16 +151,16 @@ void LeaveFeatures(
 
 /**
  * Mark the components that enclose a position.
- * @param points in computational space, as the positions
- * @return the positions that none encloses
+ * @param points points of the surface in computational space
+ * @return the positions that no component encloses
  */
 std::vector<Point> MarkEnclosing(const LargeVector<Point>& points, const DescribedSurface& surface,
-  const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
+  const std::vector<Point>& positions, std::vector<bool>& isKept, Executor& executor)
 {
-  const std::vector<int> innermost = InnermostAbout(
-    places, {}, points, surface.Shape.Triangles, surface.Features, executor);
+  const std::vector<int> innermost =
+    FindEnclosing(positions, {}, points, surface.Shape.Triangles, surface.Features, executor);
   std::vector<Point> others;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
     if (innermost[i] >= 0 && surface.Features.Components[innermost[i]].Volume > 0)
     {
@@ -167,18 +168,18 @@ std::vector<Point> MarkEnclosing(const LargeVector<Point>& points, const Describ
     }
     else
     {
-      others.push_back(places[i]);
+      others.push_back(positions[i]);
     }
   }
   return others;
 }
 
-/** Mark the owners of the components that pass near a position. @see MarkEnclosing() */
+/** Mark the owners of components within 2.5 delta of a position. @see MarkEnclosing() */
 void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
-  const std::vector<Point>& places, std::vector<bool>& isKept, Executor& executor)
+  const std::vector<Point>& positions, std::vector<bool>& isKept, Executor& executor)
 {
   const LargeVector<Triangle>& triangles = surface.Shape.Triangles;
-  const SortedPlaces sorted(places);
+  const SortedPoints sorted(positions);
   const double reach = SizingField::LongestEdgeInDelta * surface.Shape.Delta;
   std::vector<std::vector<int>> touching((triangles.size() + SpanSize - 1) / SpanSize);
   ForSpans(executor, triangles.size(), SpanSize,
@@ -193,9 +194,9 @@ void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
           sorted.Visit(p[1] - reach, p[1] + reach,
             [&](int i)
             {
-              const double x = p[0] - places[i][0];
-              const double y = p[1] - places[i][1];
-              const double z = p[2] - places[i][2];
+              const double x = p[0] - positions[i][0];
+              const double y = p[1] - positions[i][1];
+              const double z = p[2] - positions[i][2];
               if (owner >= 0 && x * x + y * y + z * z <= reach * reach)
               {
                 touching[span].push_back(owner);
@@ -210,7 +211,7 @@ void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
   }
 }
 
-/** Return DescribedSurface::Owners. The cost is negligible without cavities. */
+/** Return DescribedSurface::Owners. */
 std::vector<int> OwnersOf(
   const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {
@@ -223,7 +224,7 @@ std::vector<int> OwnersOf(
     return owners;
   }
   std::vector<int> cavities;
-  std::vector<Point> places; // Of each a corner of its first triangle here.
+  std::vector<Point> corners; // a corner of each cavity
   std::vector<bool> isDone(static_cast<std::size_t>(n), false);
   for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
   {
@@ -231,29 +232,30 @@ std::vector<int> OwnersOf(
     if (!isDone[component] && features.Components[component].Volume < 0)
     {
       cavities.push_back(component);
-      places.push_back(surface.Points[surface.Triangles[t][0]]);
+      corners.push_back(surface.Points[surface.Triangles[t][0]]);
     }
     isDone[component] = true;
   }
-  const std::vector<int> about = InnermostAbout(
-    places, cavities, surface.Points, surface.Triangles, features, executor);
+  const std::vector<int> enclosing =
+    FindEnclosing(corners, cavities, surface.Points, surface.Triangles, features, executor);
   for (std::size_t i = 0; i < cavities.size(); ++i)
   {
-    const bool isSolid = about[i] >= 0 && features.Components[about[i]].Volume > 0;
-    owners[cavities[i]] = isSolid ? about[i] : -1;
+    const bool isSolid = enclosing[i] >= 0 && features.Components[enclosing[i]].Volume > 0;
+    owners[cavities[i]] = isSolid ? enclosing[i] : -1;
   }
   return owners;
 }
 }
 
-ComponentChoice ChoiceOf(
-  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size)
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const ComputationalSpace& space,
+  const std::array<int, 3>& size)
 {
   const SegmentationEnd& end = request.Settings.End;
   CheckEnumeration("Keep Components", end.KeepComponents, KeepComponentsType::ComponentsNotAtSeeds);
   if (!(end.MinimumComponentVolume >= 0.0))
   {
-    Refuse("Minimum Component Volume is ", end.MinimumComponentVolume, "; it must be 0 or more.");
+    ThrowInvalidArgument(
+      "Minimum Component Volume is ", end.MinimumComponentVolume, ". Set it to 0 or more.");
   }
   ComponentChoice choice;
   choice.Mode = end.KeepComponents;
@@ -261,23 +263,23 @@ ComponentChoice ChoiceOf(
   const bool isAtPoints = choice.Mode == KeepComponentsType::ComponentsAtPoints;
   if (isAtPoints || choice.Mode == KeepComponentsType::ComponentsNotAtSeeds)
   {
-    // Points known to belong to the object mark nothing that is to go.
-    choice.Places =
-      PlacesOf(request.InitialSurface, isAtPoints ? request.AttractingPoints : nullptr, space);
+    // Attracting points do not mark components to remove.
+    choice.Positions = SelectionPositions(
+      request.InitialSurface, isAtPoints ? request.AttractingPoints : nullptr, space);
     const auto add = [&](const std::vector<Point>& more)
-    { choice.Places.insert(choice.Places.end(), more.begin(), more.end()); };
+    { choice.Positions.insert(choice.Positions.end(), more.begin(), more.end()); };
     add(PositionsOf(end.SeedPositions, "Seed Positions", space, size));
     if (isAtPoints)
     {
       add(PositionsOf(request.Settings.AttractingPositions, "Attracting Positions", space, size));
     }
-    choice.Mode = choice.Places.empty() ? KeepComponentsType::AllComponents : choice.Mode;
+    choice.Mode = choice.Positions.empty() ? KeepComponentsType::AllComponents : choice.Mode;
   }
   return choice;
 }
 
-DescribedSurface DescribeSurface(
-  SurfaceResult surface, const Workspace& space, const ComponentChoice& choice, Executor& executor)
+DescribedSurface DescribeSurface(SurfaceResult surface, const ComputationalSpace& space,
+  const ComponentChoice& choice, Executor& executor)
 {
   using Mode = KeepComponentsType;
   const bool dropsMarked = choice.Mode == Mode::ComponentsNotAtSeeds;
@@ -298,8 +300,8 @@ DescribedSurface DescribeSurface(
   std::vector<bool> isAtSeed(n, !hasSeeds);
   if (hasSeeds)
   {
-    MarkNear(points, described,
-      MarkEnclosing(points, described, choice.Seeds, isAtSeed, executor), isAtSeed, executor);
+    MarkNear(points, described, MarkEnclosing(points, described, choice.Seeds, isAtSeed, executor),
+      isAtSeed, executor);
   }
   std::vector<bool> isKept(n, false);
   bool hasLargest = false;
@@ -308,16 +310,15 @@ DescribedSurface DescribeSurface(
     const double volume = described.Features.Components[c].Volume;
     const bool isSolid = volume > 0 && isAtSeed[c];
     isKept[c] = isSolid &&
-      (choice.Mode == Mode::LargeComponents
-          ? volume >= choice.MinimumVolume
-          : choice.Mode == Mode::AllComponents ||
+      (choice.Mode == Mode::LargeComponents ? volume >= choice.MinimumVolume
+                                            : choice.Mode == Mode::AllComponents ||
             (choice.Mode == Mode::LargestComponent && !hasLargest));
     hasLargest = hasLargest || isSolid;
   }
   if (marks)
   {
-    MarkEnclosing(points, described, choice.Places, isKept, executor);
-    MarkNear(points, described, choice.Places, isKept, executor);
+    MarkEnclosing(points, described, choice.Positions, isKept, executor);
+    MarkNear(points, described, choice.Positions, isKept, executor);
   }
   if (dropsMarked != choice.IsInverted)
   {
@@ -328,8 +329,8 @@ DescribedSurface DescribeSurface(
     const int owner = described.Owners[c];
     isKept[c] = owner >= 0 && isKept[owner] && isAtSeed[owner];
   }
-  LeaveShape(described.Shape, described.Features, isKept);
-  LeaveFeatures(described.Features, described.Owners, isKept);
+  SelectShape(described.Shape, described.Features, isKept);
+  SelectFeatures(described.Features, described.Owners, isKept);
   return described;
 }
 }

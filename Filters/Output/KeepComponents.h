@@ -7,7 +7,7 @@
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Mesh/SurfaceFeatures.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Settings/SegmentationSettings.h"
 
 #include <array>
@@ -15,20 +15,20 @@
 
 namespace volumic
 {
-/** Which components of a surface go into an output. */
+/** Selection of components for the outputs. */
 struct ComponentChoice
 {
-  bool IsInverted = false; ///< all others; no effect on AllComponents
+  bool IsInverted = false; ///< select all others; no effect on AllComponents
   KeepComponentsType Mode = KeepComponentsType::AllComponents;
-  double MinimumVolume = 0.0; ///< world units, cubed
-  std::vector<Point> Places;  ///< workspace
-  /** Of Initialization Seeds, workspace: no other components than those at seeds are selected. */
+  double MinimumVolume = 0.0;   ///< world units cubed
+  std::vector<Point> Positions; ///< computational space
+  /** Seeds in computational space. If there are any, only components at seeds are selected. */
   std::vector<Point> Seeds;
 
   bool operator==(const ComponentChoice& other) const
   {
     return this->Mode == other.Mode && this->MinimumVolume == other.MinimumVolume &&
-      this->Places == other.Places && this->Seeds == other.Seeds;
+      this->Positions == other.Positions && this->Seeds == other.Seeds;
   }
 };
 
@@ -37,27 +37,27 @@ struct DescribedSurface
 {
   SurfaceResult Shape; ///< points in world coordinates, normals and lengths in computational space
   SurfaceFeatures Features; ///< world units
-  /** Owner per component: itself, or the innermost solid around a cavity (-1: none). */
+  /** Owner of each component: itself, or for a cavity the component around it (-1: none). */
   std::vector<int> Owners;
 };
 
 /**
- * As the settings have it, and the inputs, in the workspace of an image. AllComponents if there are
- * no points to select by.
+ * Return the selection of a request, without seeds. The mode is AllComponents if points are
+ * necessary and there are none.
  * @param size voxels of level 0 along each axis
- * @throws std::invalid_argument if the settings are out of range
+ * @throws InvalidArgument if the settings are out of range
  */
-ComponentChoice ChoiceOf(
-  const SegmentationRequest& request, const Workspace& space, const std::array<int, 3>& size);
+ComponentChoice ChoiceOf(const SegmentationRequest& request, const ComputationalSpace& space,
+  const std::array<int, 3>& size);
 
 /**
  * Select the components of a closed surface, and compute their features. A cavity is kept with its
- * owner. A component touches a position if it is the innermost component around it and not a
- * cavity, or if a vertex of it or of its cavities is within 2.5 delta. A component is at a seed if
- * it encloses it so, or, if none does, if it is as near. Complexity: O(n log n) in the number of
- * triangles and positions.
+ * owner. A component encloses a position if it is the innermost component around it and not a
+ * cavity. A component is at a position if it encloses it, or if a vertex of it or of its cavities
+ * is within 2.5 delta. A component is at a seed if it encloses it, or, if none does, if a vertex is
+ * within 2.5 delta. Complexity: O(n log n) in the number of triangles and positions.
  */
-DescribedSurface DescribeSurface(SurfaceResult surface, const Workspace& space,
+DescribedSurface DescribeSurface(SurfaceResult surface, const ComputationalSpace& space,
   const ComponentChoice& choice, Executor& executor);
 }
 

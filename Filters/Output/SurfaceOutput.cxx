@@ -5,7 +5,7 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "Host/LargeArrays.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
@@ -71,7 +71,7 @@ void AddComponentField(vtkPolyData* polyData, const char* name, std::size_t coun
   polyData->GetFieldData()->AddArray(array);
 }
 
-/** Calls body(begin, end) on ranges of n items, several of them at once. */
+/** Call body(begin, end) on ranges of n items in parallel. */
 template <typename Body>
 void ForRanges(Executor& executor, std::size_t n, const Body& body)
 {
@@ -86,9 +86,9 @@ void Free(LargeVector<T>& values)
   LargeVector<T>().swap(values);
 }
 
-/** The same value for all triangles of a component, so that filters of cells can choose by it. */
+/** Add a cell array with the value of each triangle's component. */
 template <typename Array, typename Get>
-void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
+void AddComponentCellArray(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
   Executor& executor, const Get& get)
 {
   using Value = typename Array::ValueType;
@@ -106,52 +106,54 @@ void AddComponentOfCells(vtkPolyData* polyData, const char* name, const SurfaceF
   polyData->GetCellData()->AddArray(array);
 }
 
-/** Add a member of the features of each component to its cells, and as field data. */
+/** Add a member of the features of the components as cell data and as field data. */
 template <typename CellArray, typename FieldArray, typename Value>
 void AddFeature(vtkPolyData* polyData, const char* name, const SurfaceFeatures& features,
   Executor& executor, Value ComponentFeatures::*member)
 {
   const auto get = [&](auto c, int = 0) { return features.Components[c].*member; };
-  AddComponentOfCells<CellArray>(polyData, name, features, executor, get);
+  AddComponentCellArray<CellArray>(polyData, name, features, executor, get);
   AddComponentField<FieldArray, 1>(polyData, name, features.Components.size(), get);
 }
 
-/** Return the size that 98 % of the residuals do not exceed, 0 for none. Their order changes. */
+/** Return the 98th percentile of the absolute residuals, 0 for none. Their order changes. */
 double ResidualQuantile(LargeVector<float>& residuals)
 {
   if (residuals.empty())
   {
     return 0.0;
   }
-  const auto place = residuals.begin() +
+  const auto quantile = residuals.begin() +
     static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(residuals.size() - 1));
-  std::nth_element(residuals.begin(), place, residuals.end(),
+  std::nth_element(residuals.begin(), quantile, residuals.end(),
     [](float a, float b) { return std::abs(a) < std::abs(b); });
-  return std::abs(*place);
+  return std::abs(*quantile);
 }
 
-void TakePoints(vtkPolyData* polyData, LargeVector<Point>& places, Executor& executor)
+/** Set the points, and free them. */
+void SetPoints(vtkPolyData* polyData, LargeVector<Point>& positions, Executor& executor)
 {
   vtkNew<vtkPoints> points;
-  const auto coordinates = NewLargeArray<vtkDoubleArray>(places.size(), 3);
+  const auto coordinates = NewLargeArray<vtkDoubleArray>(positions.size(), 3);
   coordinates->SetName(points->GetData()->GetName());
   points->SetData(coordinates);
   double* to = coordinates->GetPointer(0);
-  ForRanges(executor, places.size(),
+  ForRanges(executor, positions.size(),
     [&](std::size_t begin, std::size_t end)
     {
       for (std::size_t p = begin; p < end; ++p)
       {
-        std::copy(places[p].begin(), places[p].end(), to + 3 * p);
+        std::copy(positions[p].begin(), positions[p].end(), to + 3 * p);
       }
     });
   polyData->SetPoints(points);
-  Free(places);
+  Free(positions);
 }
 
-void TakeTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Executor& executor)
+/** Set the triangles, and free them. */
+void SetTriangles(vtkPolyData* polyData, LargeVector<Triangle>& corners, Executor& executor)
 {
-  // As VTK itself keeps them: what reads arrays of a file by their type finds the same.
+  // vtkIdType is the type of VTK's own arrays, which readers of files may expect.
   const auto offsets = NewLargeArray<vtkIdTypeArray>(corners.size() + 1);
   const auto connectivity = NewLargeArray<vtkIdTypeArray>(3 * corners.size());
   vtkIdType* first = offsets->GetPointer(0);
@@ -192,9 +194,9 @@ vtkSmartPointer<Array> AddPointArray(vtkPolyData* polyData, const char* name, st
   return array;
 }
 
-/** Takes what the surface knows of its points, but for the residuals. */
-void TakePointArrays(
-  vtkPolyData* polyData, SurfaceResult& surface, const Workspace& space, Executor& executor)
+/** Add all point arrays. Free those that are not needed later. */
+void AddPointArrays(vtkPolyData* polyData, SurfaceResult& surface, const ComputationalSpace& space,
+  Executor& executor)
 {
   const std::size_t n = surface.Normals.size();
   const auto normals = NewLargeArray<vtkFloatArray>(n, 3);
@@ -213,8 +215,7 @@ void TakePointArrays(
   polyData->GetPointData()->SetNormals(normals);
   AddPointArray<vtkFloatArray>(polyData, "Residual", n, surface.Residual);
   AddPointArray<vtkUnsignedCharArray>(polyData, "Motionless", n, surface.Motionless);
-  const auto contact =
-    AddPointArray<vtkUnsignedCharArray>(polyData, "Contact", n, surface.Held);
+  const auto contact = AddPointArray<vtkUnsignedCharArray>(polyData, "Contact", n, surface.Held);
   for (const std::array<int, 2>& pair : surface.Contacts)
   {
     for (const int p : pair)
@@ -224,8 +225,8 @@ void TakePointArrays(
   }
   if (!surface.Size.empty())
   {
-    AddPointArray<vtkFloatArray>(polyData, "EdgeSize", n, surface.Size,
-      SizingField::RestLengthInDelta * space.WorldUnit());
+    AddPointArray<vtkFloatArray>(
+      polyData, "EdgeSize", n, surface.Size, SizingField::RestLengthInDelta * space.WorldUnit());
   }
   if (!surface.Thickness.empty())
   {
@@ -240,11 +241,9 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
   const std::size_t n = components.size();
   AddFields(polyData,
     { { "NumberOfComponents", static_cast<int>(n) },
-      { "EulerCharacteristic", features.EulerCharacteristic },
-      { "Genus", features.Genus },
-      { "Area", features.Area },
-      { "Volume", features.Volume } });
-  AddComponentOfCells<vtkIntArray>(
+      { "EulerCharacteristic", features.EulerCharacteristic }, { "Genus", features.Genus },
+      { "Area", features.Area }, { "Volume", features.Volume } });
+  AddComponentCellArray<vtkIntArray>(
     polyData, "Component", features, executor, [](int c) { return c; });
   AddFeature<vtkFloatArray, vtkDoubleArray>(
     polyData, "ComponentArea", features, executor, &ComponentFeatures::Area);
@@ -261,22 +260,20 @@ void SetFeatures(vtkPolyData* polyData, const SurfaceFeatures& features,
 }
 }
 
-vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
-  const SurfaceDescription& description, const Workspace& space, const ComponentChoice& choice,
-  Executor& executor)
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult result,
+  const SurfaceDescription& description, const ComputationalSpace& space,
+  const ComponentChoice& choice, Executor& executor)
 {
   auto polyData = vtkSmartPointer<vtkPolyData>::New();
-  DescribedSurface described = DescribeSurface(std::move(given), space, choice, executor);
+  DescribedSurface described = DescribeSurface(std::move(result), space, choice, executor);
   SurfaceResult& surface = described.Shape;
-  TakePoints(polyData, surface.Points, executor);
-  TakeTriangles(polyData, surface.Triangles, executor);
-  TakePointArrays(polyData, surface, space, executor);
+  SetPoints(polyData, surface.Points, executor);
+  SetTriangles(polyData, surface.Triangles, executor);
+  AddPointArrays(polyData, surface, space, executor);
   HideArrays(polyData->GetPointData(), { "Motionless" });
   AddFields(polyData,
-    { { "Level", description.Level },
-      { "StartLevel", description.StartLevel },
-      { "Delta", surface.Delta * space.WorldUnit() },
-      { "Unit", description.Unit },
+    { { "Level", description.Level }, { "StartLevel", description.StartLevel },
+      { "Delta", surface.Delta * space.WorldUnit() }, { "Unit", description.Unit },
       { "Iterations", description.Iterations },
       { "RemainingContacts", static_cast<int>(surface.Contacts.size()) },
       { "ContactVertices", CountContacts(polyData) },
@@ -288,14 +285,11 @@ vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
       { { "LargestDistance", fit->LargestDistance * space.WorldUnit() },
         { "WithinTolerance", fit->WithinTolerance } });
   }
-  const LostParts& lost = description.Lost;
+  const MissedParts& missed = description.Missed;
   AddFields(polyData,
-    { { "LostParts", lost.Found },
-      { "RecoveredParts", lost.Enclosed },
-      { "MissingParts", lost.Missing },
-      { "MissingBoundary", lost.MissingBoundary },
-      { "LostCavities", lost.FoundCavities },
-      { "RecoveredCavities", lost.EnclosedCavities } });
+    { { "LostParts", missed.Found }, { "RecoveredParts", missed.Enclosed },
+      { "MissingParts", missed.Missing }, { "MissingBoundary", missed.MissingBoundary },
+      { "LostCavities", missed.FoundCavities }, { "RecoveredCavities", missed.EnclosedCavities } });
   if (description.TotalIterations >= 0)
   {
     AddFields(polyData, { { "Iteration", description.TotalIterations } });
@@ -319,7 +313,7 @@ void HideArrays(vtkFieldData* arrays, std::initializer_list<const char*> names)
 
 void SetStopReason(vtkPolyData* surface, const std::string& reason)
 {
-  // Not into field data that a shallow copy may share.
+  // Do not modify field data that a shallow copy may share.
   vtkNew<vtkFieldData> fieldData;
   fieldData->ShallowCopy(surface->GetFieldData());
   surface->SetFieldData(fieldData);
@@ -331,6 +325,6 @@ vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason)
   SurfaceDescription description;
   description.Level = description.StartLevel = level;
   description.StopReason = reason;
-  return MakePolyData(SurfaceResult(), description, Workspace());
+  return MakePolyData(SurfaceResult(), description, ComputationalSpace());
 }
 }

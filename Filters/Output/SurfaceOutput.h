@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Output/KeepComponents.h"
 
 #include <vtkSmartPointer.h>
@@ -18,7 +18,7 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** What is told of a surface beside its geometry. */
+/** Values for the field data of a surface. */
 struct SurfaceDescription
 {
   int Level = 0;
@@ -26,25 +26,25 @@ struct SurfaceDescription
   double Unit = 0.0;        ///< U_h, world units
   int Iterations = 0;       ///< at this level
   int TotalIterations = -1; ///< over all levels; field `Iteration`, -1: none
-  std::string StopReason;   ///< empty: none, the surface is still on its way
-  LostParts Lost;
+  std::string StopReason;   ///< empty: none, for a snapshot
+  MissedParts Missed;
 };
 
 /**
  * Return the selected components in world coordinates with all arrays that vtkDeformableSurface
- * documents. Each array of a moved surface is freed once it is copied.
+ * documents. Each array of a moved surface is freed after it is copied.
  */
-vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult given,
-  const SurfaceDescription& description, const Workspace& space,
+vtkSmartPointer<vtkPolyData> MakePolyData(SurfaceResult result,
+  const SurfaceDescription& description, const ComputationalSpace& space,
   const ComponentChoice& choice = ComponentChoice(), Executor& executor = OnThisThread());
 
-/** Set vtkAbstractArray::GUI_HIDE(): ParaView does not offer the arrays for a choice. */
+/** Set vtkAbstractArray::GUI_HIDE(), so that ParaView does not list the arrays. */
 void HideArrays(vtkFieldData* arrays, std::initializer_list<const char*> names);
 
-/** Sets `StopReason` instead of the one that it has; what it was copied from keeps its own. */
+/** Replace `StopReason`. Shallow copies of the surface keep theirs. */
 void SetStopReason(vtkPolyData* surface, const std::string& reason);
 
-/** The surface of a run that was stopped before it had one: empty, with all its arrays. */
+/** Return an empty surface with all arrays, for a run that was stopped at its start. */
 vtkSmartPointer<vtkPolyData> MakeStopped(int level, const std::string& reason);
 }
 

@@ -3,7 +3,7 @@
 #include "Pyramid/ImageLevels.h"
 
 #include "Core/Common/Join.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
 #include "Host/Errors.h"
@@ -45,7 +45,7 @@ namespace
 template <typename Real>
 using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
 
-/** An array of n values in memory that may turn out not to be had, which is no reason to abort. */
+/** Return an array of n values. @throws std::runtime_error if memory does not suffice */
 template <typename Real>
 vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
 {
@@ -55,16 +55,13 @@ vtkSmartPointer<ArrayOf<Real>> NewArray(std::int64_t n, int level)
   }
   catch (const std::bad_alloc&)
   {
-    throw std::runtime_error(Join("the memory does not suffice for level ", level, ", which takes ",
+    throw std::runtime_error(Join("not enough memory for level ", level, " (",
       static_cast<double>(n) * sizeof(Real) / (1024. * 1024.),
-      " MB. Set Scratch Directory, ask for fewer levels, or crop the image."));
+      " MB). Set Scratch Directory, reduce Number Of Levels, or crop the image."));
   }
 }
 
-/**
- * The voxels that level 1 is made of: as double where they are integers that single precision would
- * not keep apart.
- */
+/** Return the voxels for level 1. Convert integers to double if float cannot distinguish them. */
 vtkSmartPointer<vtkDataArray> SourceVoxels(
   vtkDataArray* contiguous, const ValidVoxels& valid, Executor& executor)
 {
@@ -74,7 +71,7 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
     return contiguous;
   }
   const std::array<double, 2> range = RangeOf(contiguous, valid);
-  if (FloatHolds(range[0], range[1]))
+  if (FitsFloat(range[0], range[1]))
   {
     return contiguous;
   }
@@ -92,26 +89,25 @@ vtkSmartPointer<vtkDataArray> SourceVoxels(
   return wide;
 }
 
-/** Input voxels of each level that are looked at: what progress is measured by. */
-std::vector<double> ShareDoneBefore(const std::vector<LevelGeometry>& levels)
+/** Return the fraction of the work before each level, measured in source voxels. */
+std::vector<double> FractionBefore(const std::vector<LevelGeometry>& levels)
 {
-  std::vector<double> share(levels.size(), 0.0);
+  std::vector<double> fraction(levels.size(), 0.0);
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
-    share[h] = share[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
+    fraction[h] = fraction[h - 1] + static_cast<double>(levels[h - 1].NumberOfVoxels());
   }
-  const double total = share.back();
-  for (double& s : share)
+  const double total = fraction.back();
+  for (double& f : fraction)
   {
-    s = total > 0.0 ? s / total : 1.0;
+    f = total > 0.0 ? f / total : 1.0;
   }
-  return share;
+  return fraction;
 }
 
 /**
- * The voxels of the levels above level 0, as far as they were finished before `progress` said stop.
- * Where not all voxels of level 0 are valid, those of the other levels are NaN whose neighbourhood
- * has more voxels without a value than with one.
+ * Compute the voxels of the coarser levels, until `progress` returns false. A voxel is NaN if valid
+ * voxels have less than half of the weight in its neighborhood.
  * @param level0 contiguous voxels
  */
 template <typename T>
@@ -120,11 +116,11 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
   Executor& executor, const Progress& progress)
 {
   using Real = typename RealOf<T>::Type;
-  const std::vector<double> before = ShareDoneBefore(levels);
+  const std::vector<double> before = FractionBefore(levels);
   const auto reduce = [&](std::size_t h, const auto* below, const auto& marks, Real* made)
   {
     const std::string text = Join("Level ", h, " of ", levels.size() - 1);
-    const LevelProgress report = [&](double done)
+    const ProgressCallback report = [&](double done)
     { return progress(before[h - 1] + done * (before[h] - before[h - 1]), text); };
     if (!report(0.0))
     {
@@ -138,8 +134,8 @@ std::vector<vtkSmartPointer<vtkDataArray>> MakeLevelVoxels(const T* level0,
   LargeVector<std::uint8_t> marks;
   for (std::size_t h = 1; h < levels.size(); ++h)
   {
-    const auto array = NewArray<Real>(
-      static_cast<std::int64_t>(levels[h].NumberOfVoxels()), static_cast<int>(h));
+    const auto array =
+      NewArray<Real>(static_cast<std::int64_t>(levels[h].NumberOfVoxels()), static_cast<int>(h));
     Real* values = array->GetPointer(0);
     const bool isFinished = h == 1
       ? reduce(h, level0, valid, values)
@@ -180,17 +176,17 @@ vtkSmartPointer<vtkImageData> MakeImage(
   return image;
 }
 
-/** U_h / U_0 of a block: what the pyramid wrote down, or else what the spacings tell. */
+/** Return U_h / U_0 of a block, from its field data `Unit` or else from the spacings. */
 double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
 {
-  const auto written = [](vtkImageData* block)
+  const auto storedUnit = [](vtkImageData* block)
   {
     vtkDataArray* unit = block->GetFieldData()->GetArray("Unit");
     return unit && unit->GetNumberOfTuples() == 1 ? std::max(unit->GetTuple1(0), 0.0) : 0.0;
   };
-  if (written(level0) > 0.0 && written(image) > 0.0)
+  if (storedUnit(level0) > 0.0 && storedUnit(image) > 0.0)
   {
-    return written(image) / written(level0);
+    return storedUnit(image) / storedUnit(level0);
   }
   double ratio = std::numeric_limits<double>::infinity();
   for (int axis = 0; axis < 3; ++axis)
@@ -203,16 +199,15 @@ double UnitOfBlock(vtkImageData* level0, vtkImageData* image)
 
 PyramidOptions ImageLevels::Options() const
 {
-  const double factor =
-    this->Levels.size() > 1 ? this->Levels[1].Unit / this->Levels[0].Unit : 0.0;
+  const double factor = this->Levels.size() > 1 ? this->Levels[1].Unit / this->Levels[0].Unit : 0.0;
   PyramidOptions options;
   options.NumberOfLevels = static_cast<int>(this->Levels.size());
   options.ReductionFactor = factor > 1.0 && factor < 2.0 ? factor : std::sqrt(3.0);
   return options;
 }
 
-ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
-  const LevelsOptions& options, const Progress& progress)
+ImageLevels MakeImageLevels(
+  vtkImageData* image, vtkDataArray* voxels, const LevelsOptions& options, const Progress& progress)
 {
   const std::vector<LevelGeometry> plan = Plan(image, options.Pyramid);
   vtkSmartPointer<vtkDataArray> finest = voxels;
@@ -227,12 +222,12 @@ ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   CheckAnyIsValid(voxels, valid);
   const vtkSmartPointer<vtkDataArray> source = SourceVoxels(contiguous, valid, threads);
   std::vector<vtkSmartPointer<vtkDataArray>> made;
-  VisitVoxels(source, [&](const auto* level0)
+  VisitVoxels(source,
+    [&](const auto* level0)
     { made = MakeLevelVoxels(level0, valid.Marks, plan, threads, progress); });
 
   ImageLevels levels;
-  // No voxel is copied, but where they were folded, or one component was selected: then the new
-  // array takes the place of theirs.
+  // Voxels are copied only by FoldVoxels() and SelectComponent(). The copy replaces the array.
   levels.Levels.push_back({ WithVoxels(image, finest), finest, plan[0].Unit });
   for (std::size_t h = 1; h <= made.size(); ++h)
   {
@@ -241,7 +236,7 @@ ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
   }
   levels.IsComplete = levels.Levels.size() == plan.size();
   levels.NaNs = valid.NaNs;
-  levels.AboutNaNs = valid.NaNs > 0 ? DescribeNaNs(voxels, image, valid) : std::string();
+  levels.NaNWarning = valid.NaNs > 0 ? DescribeNaNs(voxels, image, valid) : std::string();
   return levels;
 }
 
@@ -250,8 +245,8 @@ ImageLevels LevelsOfBlocks(
 {
   if (blocks->GetNumberOfBlocks() == 0)
   {
-    Refuse("there is no level: the input has no blocks, as after an error of Image Pyramid.",
-      LevelsWayOut);
+    ThrowInvalidArgument(
+      "the input has no blocks, as after an error of Image Pyramid.", LevelsAdvice);
   }
   ImageLevels levels;
   for (unsigned int h = 0; h < blocks->GetNumberOfBlocks(); ++h)
@@ -260,19 +255,19 @@ ImageLevels LevelsOfBlocks(
     auto* image = vtkImageData::SafeDownCast(block);
     if (!image)
     {
-      Refuse("block ", h, " is ", block ? block->GetClassName() : "empty", ", not an image.",
-        LevelsWayOut);
+      ThrowInvalidArgument("block ", h, " is ", block ? block->GetClassName() : "empty",
+        ", not an image.", LevelsAdvice);
     }
     const vtkSmartPointer<vtkDataArray> voxels =
       PrefixErrors(Join("level ", h, ": "), [&] { return ChooseVoxels(selection, image); });
     if (h > 0)
     {
-      CheckPlace(levels.Levels[0].Image, levels.Levels.back().Image, image, h);
+      CheckGeometry(levels.Levels[0].Image, levels.Levels.back().Image, image, h);
     }
     levels.Levels.push_back({ image, voxels, 1.0 });
     levels.Levels.back().Unit = UnitOfBlock(levels.Levels[0].Image, image);
   }
-  // Image Pyramid has counted them, and told of them.
+  // Image Pyramid has counted and reported them.
   if (!blocks->GetFieldData()->HasArray("NaNVoxels"))
   {
     const ImageLevel& finest = levels.Levels[0];
@@ -280,22 +275,23 @@ ImageLevels LevelsOfBlocks(
     const ValidVoxels valid = PrefixErrors("level 0: ",
       [&]
       {
-        return FindValidVoxels(finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image,
-          nanIsBackground, thread);
+        return FindValidVoxels(
+          finest.Voxels, ContiguousVoxels(finest.Voxels), finest.Image, nanIsBackground, thread);
       });
-    levels.AboutNaNs =
+    levels.NaNWarning =
       valid.NaNs > 0 ? DescribeNaNs(finest.Voxels, finest.Image, valid) : std::string();
   }
   return levels;
 }
 
-ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
-  int numberOfThreads, const Progress& progress)
+ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection, int numberOfThreads,
+  const Progress& progress)
 {
   vtkDataArray* voxels = ChooseVoxels(selection, levels.Levels[0].Image);
   const std::string name = ChosenName(selection);
   const bool isEverywhere = !name.empty() &&
-    std::all_of(levels.Levels.begin(), levels.Levels.end(), [&name](const ImageLevel& level)
+    std::all_of(levels.Levels.begin(), levels.Levels.end(),
+      [&name](const ImageLevel& level)
       { return level.Image->GetPointData()->HasArray(name.c_str()); });
   if (!isEverywhere && levels.Levels.size() > 1)
   {
@@ -333,7 +329,7 @@ vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels)
   for (std::size_t h = 0; h < levels.Levels.size(); ++h)
   {
     vtkImageData* image = levels.Levels[h].Image;
-    // Not into the input's own field data, which a shallow copy may share.
+    // Do not modify the field data of the input, which a shallow copy may share.
     vtkNew<vtkFieldData> fieldData;
     fieldData->ShallowCopy(image->GetFieldData());
     AddField<vtkIntArray>(fieldData, "Level", static_cast<int>(h));

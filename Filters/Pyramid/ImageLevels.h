@@ -26,7 +26,7 @@ struct ImageLevel
 {
   vtkSmartPointer<vtkImageData> Image; ///< geometry and ghost array (blanked voxels)
   vtkSmartPointer<vtkDataArray> Voxels;
-  double Unit = 0.0; ///< U_h, in the unit of the spacing
+  double Unit = 0.0; ///< U_h, world units
 };
 
 /** The levels of an image. Level 0 is the image itself. */
@@ -36,7 +36,7 @@ struct ImageLevels
   double FactorBelow = 1.7320508075688772; ///< U_0 over the unit of level -1
   bool IsComplete = true;                  ///< false: stopped before the last level
   std::int64_t NaNs = 0;                   ///< number of NaN voxels of level 0
-  std::string AboutNaNs;                   ///< warning about them; empty if reported already
+  std::string NaNWarning;                  ///< warning about them; empty if already reported
 
   /** Return the options for the same number of levels and the same reduction factor. */
   PyramidOptions Options() const;
@@ -46,48 +46,48 @@ struct ImageLevels
 struct LevelsOptions
 {
   PyramidOptions Pyramid;
-  ValueRange Range; ///< FoldVoxels() applies it to level 0 first.
+  ValueRange Range; ///< range of FoldVoxels() for level 0
   bool NaNIsBackground = true;
   unsigned NumberOfThreads = 0; ///< 0: all
 };
 
 /**
- * Compute the levels of an image, as vtkImagePyramid does. If `progress` returns false the levels
- * that are finished are returned.
+ * Compute the levels of an image, as vtkImagePyramid does. If `progress` returns false, return the
+ * finished levels.
  * @param image    level 0; its arrays are shared
  * @param voxels   array of the image with one component
- * @throws Refusal for invalid options or voxels
+ * @throws InvalidArgument for invalid options or voxels
  */
-ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels,
-  const LevelsOptions& options, const Progress& progress);
+ImageLevels MakeImageLevels(vtkImageData* image, vtkDataArray* voxels, const LevelsOptions& options,
+  const Progress& progress);
 
 /**
  * Return the blocks of an output of vtkImagePyramid as levels.
  * @param selection the array of the voxels (GetInputArrayInformation)
- * @throws Refusal naming the block that is not an image, lacks the array, or has not the size or
- *         position of a level
+ * @throws InvalidArgument naming the block that is not an image, lacks the array, or does not have
+ *   the size or position of a level
  */
 ImageLevels LevelsOfBlocks(
   vtkMultiBlockDataSet* blocks, vtkInformation* selection, bool nanIsBackground);
 
 /**
- * Return the levels of another array of the image. They are computed from the array of level 0,
- * unless all levels have an array of its name.
- * @throws Refusal if level 0 has no such array with one component
+ * Return the levels of another array of the image. Compute them from the array of level 0, unless
+ * all levels have an array of this name.
+ * @throws InvalidArgument if level 0 has no such array with one component
  */
-ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection,
-  int numberOfThreads, const Progress& progress);
+ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection, int numberOfThreads,
+  const Progress& progress);
 
-/** Return the names of the blocks of a pyramid's levels, and of level -1 if that is the finest. */
+/** Return the block names of the levels of a pyramid, and of level -1 if it is the finest. */
 std::vector<std::string> LevelNames(int numberOfLevels, int finest = 0);
 
 /** Return the levels as the blocks of the output of vtkImagePyramid, with its field data. */
 vtkSmartPointer<vtkMultiBlockDataSet> BlocksOf(const ImageLevels& levels);
 
 /**
- * What gives edges of a mean length (world units) at the finest level; sets the factor of the
- * pyramid, which is not made yet, to the plan's.
- * @throws std::invalid_argument naming the lengths that are possible.
+ * Plan the levels for a mean edge length (world units) at the finest level. Set the reduction
+ * factor of the pyramid accordingly.
+ * @throws InvalidArgument naming the possible lengths
  */
 EdgeLengthPlan PlanEdgeLength(
   double edgeLength, double samplingRatio, vtkImageData* image, PyramidOptions& pyramid);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Pyramid/PyramidLevels.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
@@ -20,28 +20,27 @@ namespace volumic
 {
 namespace
 {
-void CheckSize(vtkImageData* image, const std::string& what, const char* wayOut)
+void CheckSize(vtkImageData* image, const std::string& name, const char* advice)
 {
   const int* size = image->GetDimensions();
   if (*std::min_element(size, size + 3) == 1)
   {
-    Refuse(what, " is 2D (", SizeOf(image), " voxels); a surface needs a volume.");
+    ThrowInvalidArgument(name, " is 2D (", SizeOf(image),
+      " voxels). Connect an image with at least ", PyramidLevels::MinimumSize,
+      " voxels along each axis.");
   }
   if (*std::min_element(size, size + 3) < PyramidLevels::MinimumSize)
   {
-    Refuse(what, " has ", SizeOf(image), " voxels; at least ", PyramidLevels::MinimumSize,
-      " are needed along each axis. ", wayOut);
+    ThrowInvalidArgument(name, " has ", SizeOf(image), " voxels; it must have at least ",
+      PyramidLevels::MinimumSize, " along each axis. ", advice);
   }
 }
 
-/**
- * The voxels as the surface reads them. Floats are taken as they are, unless their differences are
- * small beside their size; of all others `base` is subtracted.
- */
+/** Set the values of an image. `base` is subtracted, except from floats with enough resolution. */
 void ShareVoxels(
   LevelImage& to, vtkDataArray* voxels, const std::array<double, 2>& range, double base)
 {
-  if (voxels->GetDataType() == VTK_FLOAT && FloatHolds(range[0], range[1]))
+  if (voxels->GetDataType() == VTK_FLOAT && FitsFloat(range[0], range[1]))
   {
     to.Values = static_cast<const float*>(voxels->GetVoidPointer(0));
     return;
@@ -50,7 +49,7 @@ void ShareVoxels(
   VisitVoxels(voxels, [&](const auto* values) { to.Values = VoxelValues(values, base); });
 }
 
-/** Copies the values to `filled`, with the background for those that are not marked as valid. */
+/** Copy the values to `filled`. Set invalid ones to the background. */
 void FillInvalid(const LevelImage& image, const LargeVector<std::uint8_t>& marks, double background,
   float* filled, Executor& executor)
 {
@@ -73,7 +72,7 @@ PyramidLevels::PyramidLevels(const ImageLevels& levels, Metric metric, bool nanI
 {
   CheckSize(this->Levels[0].Image, "the image",
     "Resample it more finely (vtkImageResize; ParaView: Resample To Image).");
-  this->Space = Workspace(this->Levels[0].Image, metric);
+  this->Space = ComputationalSpace(this->Levels[0].Image, metric);
   for (const ImageLevel& level : this->Levels)
   {
     const int* size = level.Image->GetDimensions();
@@ -108,17 +107,17 @@ double PyramidLevels::UnitOf(int level) const
   return level < 0 ? 1.0 / this->FactorBelow : this->Levels[level].Unit / this->Levels[0].Unit;
 }
 
-bool PyramidLevels::HoldsPart(
+bool PyramidLevels::ContainsPart(
   int level, const PartSize& least, double isoValue, bool objectIsBright) const
 {
   Executor thread;
   const ValidVoxels valid = this->ValidAt(level, thread);
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
-  bool holds = false;
+  bool contains = false;
   VisitVoxels(voxels,
     [&](const auto* values)
     {
-      holds = HasThickPart(
+      contains = HasThickPart(
         [&](std::int64_t voxel)
         {
           const auto number = static_cast<double>(values[voxel]);
@@ -126,7 +125,7 @@ bool PyramidLevels::HoldsPart(
         },
         this->Sizes[level], least);
     });
-  return holds;
+  return contains;
 }
 
 std::array<double, 2> PyramidLevels::Range(int level) const
@@ -145,22 +144,21 @@ std::array<double, 2> PyramidLevels::Range(int level) const
   return this->Ranges[level] = RangeOf(ContiguousVoxels(this->Levels[level].Voxels), valid);
 }
 
-LevelImage PyramidLevels::Load(int wanted, double base, double background, Executor& executor)
+LevelImage PyramidLevels::Load(int requested, double base, double background, Executor& executor)
 {
-  const int level = std::max(wanted, 0);
+  const int level = std::max(requested, 0);
   const std::string name = Join("level ", level);
   CheckSize(this->Levels[level].Image, name, "Set Coarsest Level to a finer level.");
   const vtkSmartPointer<vtkDataArray> voxels = ContiguousVoxels(this->Levels[level].Voxels);
   const ValidVoxels valid = this->ValidAt(level, executor);
-  // Sums and differences of voxels must not overflow either.
+  // Sums and differences of voxels must not overflow.
   constexpr double largest = 1e37;
   const std::array<double, 2> range = this->Range(level);
   const double size = std::max(std::abs(range[0]), std::abs(range[1]));
   if (size > largest)
   {
-    Refuse(name, ": ", NameOf(this->Levels[level].Voxels), " has values of ", size,
-      " in size; at most ", largest,
-      " can be used, since the surface computes in single precision. Scale the image.");
+    ThrowInvalidArgument(name, ": ", NameOf(this->Levels[level].Voxels), " has absolute values of ",
+      size, ", more than ", largest, ", the limit of single precision. Scale the image.");
   }
 
   this->Loaded = voxels;
@@ -179,7 +177,7 @@ LevelImage PyramidLevels::Load(int wanted, double base, double background, Execu
     loaded.Step[axis] =
       this->Space.Step()[axis] * static_cast<double>(this->Sizes[0][axis]) / loaded.Size[axis];
   }
-  loaded.Unit = this->UnitOf(wanted);
+  loaded.Unit = this->UnitOf(requested);
   return loaded;
 }
 

@@ -9,8 +9,8 @@
 #include "Core/Image/LevelImage.h"
 #include "Core/Image/ThickPart.h"
 #include "Core/Image/VoxelValues.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/ValidVoxels.h"
-#include "Input/Workspace.h"
 #include "Pyramid/ImageLevels.h"
 
 #include <array>
@@ -19,80 +19,76 @@
 
 namespace volumic
 {
-/** The levels of an image for the core. All errors are a Refusal whose message names the level. */
+/** The levels of an image for the core. The messages of InvalidArgument name the level. */
 class PyramidLevels
 {
 public:
-  /** The fewest voxels along an axis on which a surface can evolve. */
+  /** Minimum number of voxels along an axis for a surface. */
   static constexpr int MinimumSize = 8;
 
   /**
    * @param metric          metric of the computational space
    * @param nanIsBackground false: Load() throws for NaN voxels
-   * @throws Refusal if the image is 2D or smaller than MinimumSize along an axis
+   * @throws InvalidArgument if the image is 2D or smaller than MinimumSize along an axis
    */
   PyramidLevels(const ImageLevels& levels, Metric metric, bool nanIsBackground = true);
 
   int NumberOfLevels() const { return static_cast<int>(this->Levels.size()); }
-  const Workspace& GetWorkspace() const { return this->Space; }
+  const ComputationalSpace& GetComputationalSpace() const { return this->Space; }
 
-  /** Whether a surface can evolve on the level: MinimumSize along each axis. Level 0 has it. */
+  /** Return whether the level has MinimumSize voxels along each axis. Level 0 has. */
   bool HasRoom(int level) const;
 
-  /** Voxels of a level along each axis. */
+  /** Return the number of voxels of a level along each axis. */
   const std::array<int, 3>& SizeOf(int level) const { return this->Sizes[level]; }
   std::int64_t NumberOfVoxels(int level) const;
 
-  /** U_h in world units. Level -1, finer than the image, has U_0 / T. */
+  /** Return U_h in world units, for level -1 U_0 / T. */
   double UnitInWorld(int level) const { return this->UnitOf(level) * this->Space.WorldUnit(); }
   void SetFactorBelowLevel0(double t) { this->FactorBelow = t; }
 
-  /**
-   * Whether a part of the object, which is above the value (bright) or below, is at least that
-   * large at a level (ThickPart.h).
-   */
-  bool HoldsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
+  /** Return whether a part of the object has at least a given size at a level (ThickPart.h). */
+  bool ContainsPart(int level, const PartSize& least, double isoValue, bool objectIsBright) const;
 
   /**
-   * Smallest and largest voxel of a level among those that are valid (ValidVoxels.h); the first is
-   * the larger one if none is.
+   * Return the smallest and the largest valid voxel of a level, in reverse order if there is none.
    */
   std::array<double, 2> Range(int level) const;
 
   /**
-   * The voxels of a level, of level 0 for level -1; they stay valid until the next call. They are
-   * shared, and read in their own type (VoxelValues), unless some of them are not valid: then they
-   * are copied. Floats are taken as they are, unless their differences are small beside their size;
-   * of all others `base` is subtracted: it is the Base of the result.
-   * @param base       a value of the field that matters, such as the iso-value
-   * @param background the value that voxels get which are not valid
-   * @throws if the level is under MinimumSize along an axis, or has voxels that are infinite or too
-   *         large for single precision, or NaN where these are refused.
+   * Return the voxels of a level, for level -1 those of level 0, until the next call. They are
+   * shared, and keep their type (VoxelValues), unless some of them are invalid. `base` becomes the
+   * Base of the result, which is subtracted from the voxels, except from floats with a sufficient
+   * resolution.
+   * @param base       reference value, such as the iso-value
+   * @param background value of invalid voxels
+   * @throws InvalidArgument if the level is too small, or has voxels that are infinite, too large
+   *   for single precision, or NaN without nanIsBackground
    */
   LevelImage Load(int level, double base, double background, Executor& executor);
 
-  /** Coarser than none. */
+  /** Argument of ReleaseCoarserThan(). */
   static constexpr int AllLevels = -2;
   /**
-   * Lets go of the voxels of the levels that are coarser: no more than sizes, units and ranges that
-   * were asked for is known of them afterwards. Of level 0 the voxels stay, unless AllLevels go.
+   * Release the voxels of coarser levels. Sizes, units and cached ranges remain. AllLevels releases
+   * level 0, too.
    */
   void ReleaseCoarserThan(int level);
-  /** Whether the voxels of a level are still there. */
+  /** Return whether the voxels of a level are not released. */
   bool HasVoxels(int level) const { return this->Levels[level].Image != nullptr; }
 
 private:
   double UnitOf(int level) const;
   ValidVoxels ValidAt(int level, Executor& executor) const;
 
-  std::vector<ImageLevel> Levels; ///< without image and voxels where these were let go
+  std::vector<ImageLevel> Levels; ///< without image and voxels if released
   std::vector<std::array<int, 3>> Sizes;
   double FactorBelow; ///< U_0 over the unit of level -1
-  Workspace Space;
-  vtkSmartPointer<vtkDataArray> Loaded; ///< what the result of the last Load() refers to
-  LargeVector<float> Filled;            ///< or this
+  ComputationalSpace Space;
+  vtkSmartPointer<vtkDataArray> Loaded; ///< voxels of the last Load()
+  LargeVector<float> Filled;            ///< copy of them if some are invalid
   bool NaNIsBackground;
-  mutable std::map<int, std::array<double, 2>> Ranges; ///< by level, once asked for
+  mutable std::map<int, std::array<double, 2>> Ranges; ///< cached, by level
 };
 }
 

@@ -18,8 +18,8 @@ namespace volumic
 namespace
 {
 /**
- * What comes to a connection. ParaView puts a filter of its own between any two, which hands on the
- * same data in an object that it fills anew at each update.
+ * Return the data of a connection. Skip the filters that ParaView inserts, which make a new data
+ * object in each update.
  */
 vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
 {
@@ -32,7 +32,7 @@ vtkDataObject* DataOf(vtkAlgorithmOutput* connection)
   return producer->GetOutputDataObject(connection->GetIndex());
 }
 
-/** When anything of it was changed last; blocks do not tell of it by themselves. */
+/** Return the modification time of data, including blocks. */
 vtkMTimeType TimeOf(vtkDataObject* data)
 {
   vtkMTimeType time = data->GetMTime();
@@ -70,6 +70,6 @@ bool MayKeepRun(vtkAlgorithm* filter)
   {
     areReleased = areReleased || AreReleased(filter, port);
   }
-  return !areReleased; // They must not stay because of us.
+  return !areReleased;
 }
 }

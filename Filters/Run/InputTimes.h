@@ -13,11 +13,11 @@ class vtkDataObject;
 
 namespace volumic
 {
-/** The inputs of a filter with their modification times. A change invalidates the kept run. */
+/** The inputs of a filter with their modification times. Any change invalidates the kept run. */
 using InputTimes = std::vector<std::pair<vtkDataObject*, vtkMTimeType>>;
 InputTimes InputTimesOf(vtkAlgorithm* filter);
 
-/** Return whether the filter may keep its run: not if data are released. */
+/** Return whether the filter may keep its run. It may not if input or output data are released. */
 bool MayKeepRun(vtkAlgorithm* filter);
 }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/ReadVolume.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Host/Errors.h"
 #include "Input/ImageVoxels.h"
 #include "Input/InputImage.h"
@@ -18,7 +18,7 @@ namespace volumic
 {
 namespace
 {
-LevelsOptions OptionsAsSet(const SegmentationSettings& settings)
+LevelsOptions MakeLevelsOptions(const SegmentationSettings& settings)
 {
   LevelsOptions options;
   options.Pyramid = settings.Pyramid;
@@ -33,21 +33,20 @@ vtkSmartPointer<vtkImageData> CompleteImage(
   SegmentationRequest& request, vtkImageData* image, Volume& volume)
 {
   SegmentationSettings& settings = request.Settings;
-  const PointVoxels voxels = TakeCellsAsPoints(image, request.Selection);
+  const PointVoxels voxels = ConvertCellsToPoints(image, request.Selection);
   request.Selection = voxels.Selection;
   if (std::isnan(settings.Options.IsoValue))
   {
     settings.Options.IsoValue =
-      PrefixErrors("Iso Value is not set, and can't be found: Input port 0: ",
+      PrefixErrors("Iso Value is not set, and cannot be computed: Input port 0: ",
         [&]
         {
-          return FindOtsuThreshold(
-            voxels.Image, voxels.Selection, settings.SelectedComponent)
+          return FindOtsuThreshold(voxels.Image, voxels.Selection, settings.SelectedComponent)
             .Threshold;
         });
   }
   vtkDataArray* values =
-    PrefixErrors(PlaceOfVoxels, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
+    PrefixErrors(VoxelErrorPrefix, [&] { return ChooseArray(voxels.Selection, voxels.Image); });
   if (values->GetNumberOfComponents() == 1 && values->HasStandardMemoryLayout())
   {
     volume.HintAtLabels = HintAtLabels(values, voxels.Image->GetDimensions());
@@ -59,12 +58,12 @@ void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& pro
 {
   SegmentationSettings& settings = request.Settings;
   vtkSmartPointer<vtkImageData> image =
-    PrefixErrors(PlaceOfVoxels, [&] { return ImageOf(request.Volume); });
+    PrefixErrors(VoxelErrorPrefix, [&] { return ImageOf(request.Volume); });
   if (settings.OfImages)
   {
     image = CompleteImage(request, image, volume);
   }
-  LevelsOptions options = OptionsAsSet(settings);
+  LevelsOptions options = MakeLevelsOptions(settings);
   double factorBelow = volume.Voxels.FactorBelow;
   if (settings.EdgeLength != 0.0)
   {
@@ -75,7 +74,7 @@ void ReadImage(Volume& volume, SegmentationRequest& request, const Progress& pro
     factorBelow = plan.ReductionFactor;
   }
   volume.IsOfImage = true;
-  volume.Voxels = PrefixErrors(PlaceOfVoxels,
+  volume.Voxels = PrefixErrors(VoxelErrorPrefix,
     [&]
     {
       vtkDataArray* array = ChooseArray(request.Selection, image);
@@ -90,14 +89,13 @@ ImageLevels ReadBlocks(const SegmentationRequest& request, const Progress& progr
   const SegmentationSettings& settings = request.Settings;
   ImageLevels levels = LevelsOfBlocks(vtkMultiBlockDataSet::SafeDownCast(request.Volume),
     request.Selection, settings.NaNIsBackground);
-  // The mean of folded voxels differs from the folded mean.
+  // FoldVoxels() does not commute with the means of coarser levels.
   if (settings.Range().IsUsed())
   {
-    LevelsOptions options = OptionsAsSet(settings);
+    LevelsOptions options = MakeLevelsOptions(settings);
     options.Pyramid = levels.Options();
-    levels =
-      MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
-    levels.AboutNaNs.clear(); // Image Pyramid has reported them.
+    levels = MakeImageLevels(levels.Levels[0].Image, levels.Levels[0].Voxels, options, progress);
+    levels.NaNWarning.clear(); // Image Pyramid has reported it.
   }
   return levels;
 }
@@ -110,15 +108,15 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
       selection->Has(vtkDataObject::FIELD_ATTRIBUTE_TYPE()));
   if (!isChosen)
   {
-    Refuse("Edge Attraction Weight is not 0, but there is no map of edges: choose a second point "
-           "array of the image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient "
-           "magnitude.");
+    ThrowInvalidArgument(
+      "Edge Attraction Weight is not 0, but there is no edge map. Choose a second point array of "
+      "the "
+      "image as Edge Map (SetInputArrayToProcess(1, ...)), such as its gradient magnitude.");
   }
-  PrefixErrors(PlaceOfEdges,
+  PrefixErrors(EdgeErrorPrefix,
     [&]
     {
-      volume.Edges = LevelsOfArray(volume.Voxels, selection,
-        request.Settings.End.NumberOfThreads,
+      volume.Edges = LevelsOfArray(volume.Voxels, selection, request.Settings.End.NumberOfThreads,
         [&progress](double, const std::string& text) { return progress(1.0, text); });
     });
 }
@@ -126,11 +124,11 @@ void ReadEdges(Volume& volume, const SegmentationRequest& request, const Progres
 
 Volume ReadVolume(SegmentationRequest& request, const Progress& progress)
 {
-  request.Settings.Range(); // Check it before anything is read.
+  request.Settings.Range(); // Check the range before reading.
   Volume volume;
   if (vtkMultiBlockDataSet::SafeDownCast(request.Volume) && !request.Settings.OfImages)
   {
-    volume.Voxels = PrefixErrors(PlaceOfVoxels, [&] { return ReadBlocks(request, progress); });
+    volume.Voxels = PrefixErrors(VoxelErrorPrefix, [&] { return ReadBlocks(request, progress); });
   }
   else
   {

@@ -12,15 +12,15 @@
 namespace volumic
 {
 /** Prefixes of messages about the voxels and about the edge map. */
-constexpr const char* PlaceOfVoxels = "Input port 0: ";
-constexpr const char* PlaceOfEdges = "Input port 0, the map of edges: ";
+constexpr const char* VoxelErrorPrefix = "Input port 0: ";
+constexpr const char* EdgeErrorPrefix = "Input port 0, edge map: ";
 
 /** The data of input port 0 as levels. */
 struct Volume
 {
   ImageLevels Voxels;
-  ImageLevels Edges;        ///< of the edge map; none if its weight is 0
-  bool IsOfImage = false;   ///< The input was an image. EdgeLength is applied to the levels.
+  ImageLevels Edges;        ///< of the edge map; empty if its weight is 0
+  bool IsOfImage = false;   ///< The input was an image, and EdgeLength is applied to the levels.
   std::string HintAtLabels; ///< warning for voxels that look like labels; empty: none
 
   bool IsComplete() const { return this->Voxels.IsComplete && this->Edges.IsComplete; }
@@ -28,9 +28,9 @@ struct Volume
 
 /**
  * Compute the levels of an image, or read the blocks of a pyramid. For an image set the automatic
- * settings of the request: the iso-value, and the finest level of EdgeLength. The result is not
- * complete if `progress` has returned false.
- * @throws Refusal naming the port or the property
+ * settings of the request: the iso-value, and the finest level for EdgeLength. The result is
+ * incomplete if `progress` has returned false.
+ * @throws InvalidArgument naming the port or the property
  */
 Volume ReadVolume(SegmentationRequest& request, const Progress& progress);
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/RunStart.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Input/ComputationalSpace.h"
 #include "Input/InputPoints.h"
-#include "Input/Workspace.h"
 #include "Pyramid/PyramidLevels.h"
 
 #include <vtkCellArray.h>
@@ -25,15 +25,15 @@ namespace volumic
 {
 namespace
 {
-/** The levels from the last that has room to the finest that is asked for, whatever is on them. */
-LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings& settings)
+/** Return the requested levels. CoarsestLevel -1 is the last that is large enough. */
+LevelChoice RequestedLevels(const PyramidLevels& pyramid, const SegmentationSettings& settings)
 {
   LevelChoice choice;
   const int last = pyramid.NumberOfLevels() - 1;
   choice.Coarsest = settings.CoarsestLevel;
   if (settings.CoarsestLevel == -1)
   {
-    // A pyramid may go on to levels of a single voxel.
+    // A pyramid may have levels of a single voxel.
     for (choice.Coarsest = last; !pyramid.HasRoom(choice.Coarsest);)
     {
       --choice.Coarsest;
@@ -42,37 +42,38 @@ LevelChoice LevelsAsSet(const PyramidLevels& pyramid, const SegmentationSettings
   const int finest = settings.End.FinestLevel;
   if (choice.Coarsest < 0 || choice.Coarsest > last)
   {
-    Refuse("Coarsest Level is ", settings.CoarsestLevel, ", but the pyramid has the levels 0 to ",
-      last, "; use one of them, or -1 for the last.");
+    ThrowInvalidArgument("Coarsest Level is ", settings.CoarsestLevel,
+      ", but the pyramid has levels 0 to ", last,
+      ". Set it to one of these, or to -1 (automatic).");
   }
   if (settings.EdgeLength != 0.0 && finest > choice.Coarsest)
   {
-    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", finest,
-      ", but Coarsest Level is ", settings.CoarsestLevel,
-      "; set it to that level, a coarser one, or -1 for the last.");
+    ThrowInvalidArgument("Edge Length is ", settings.EdgeLength, ", for which the finest level is ",
+      finest, ", but Coarsest Level is ", settings.CoarsestLevel,
+      ". Set Coarsest Level to at least ", finest, ", or to -1 (automatic).");
   }
   if (finest < -1 || finest > choice.Coarsest)
   {
-    Refuse("Finest Level is ", finest, "; it must lie between 0 and the coarsest level, ",
-      choice.Coarsest, ", or be -1 for a last division beyond the image.");
+    ThrowInvalidArgument("Finest Level is ", finest, ". Set it to 0 to ", choice.Coarsest,
+      ", the coarsest level, or to -1 for a subdivision beyond the image.");
   }
   while (choice.Preview < choice.Coarsest &&
-    pyramid.NumberOfVoxels(choice.Preview) > LevelChoice::VoxelsOfPreview)
+    pyramid.NumberOfVoxels(choice.Preview) > LevelChoice::MaximumPreviewVoxels)
   {
     ++choice.Preview;
   }
   return choice;
 }
 
-/** @param folded the range of the voxels as FoldVoxels() has them */
+/** @param folded range of the voxels after FoldVoxels() */
 void CheckFolded(const ValueRange& range, const std::array<double, 2>& folded)
 {
   const bool hasNone = folded[1] <= range.Lower;
   if (hasNone || folded[0] >= range.Lower)
   {
-    Refuse(hasNone ? "no voxel is" : "all voxels are", " between Iso Value, ", range.Lower,
-      ", and Upper Value, ", range.Upper,
-      "; set them to the values that the object has and its surroundings have not.");
+    ThrowInvalidArgument(hasNone ? "no voxel is" : "all voxels are", " between Iso Value, ",
+      range.Lower, ", and Upper Value, ", range.Upper,
+      ". Set them to the range of the object's values.");
   }
 }
 
@@ -80,26 +81,26 @@ void CheckIsoValue(double iso, const std::array<double, 2>& range)
 {
   if (!(range[0] < range[1]))
   {
-    Refuse("all voxels are ", range[0],
-      ": no value separates an object from the background. Choose another volume, array or "
+    ThrowInvalidArgument("all voxels are ", range[0],
+      ", so no value separates an object from the background. Choose another image, array or "
       "component.");
   }
   if (std::isnan(iso))
   {
-    Refuse(
-      "Iso Value is not set. Set it to the value that parts the object from the background; the "
-      "voxels range from ",
+    ThrowInvalidArgument("Iso Value is not set. Set it to the value that separates the object from "
+                         "the background. The "
+                         "voxels range from ",
       range[0], " to ", range[1], ".");
   }
   if (iso <= range[0] || iso >= range[1])
   {
     const char* where = iso < range[0] || iso > range[1] ? "outside" : "at an end of";
-    Refuse("Iso Value is ", iso, ", ", where, " the range of the voxels, ", range[0], " to ",
-      range[1], "; set it between them.");
+    ThrowInvalidArgument("Iso Value is ", iso, ", ", where,
+      " the range of the voxels. Set it between ", range[0], " and ", range[1], ".");
   }
 }
 
-/** At most `from`; 0 where no other level has any of the object. */
+/** Return the coarsest level, at most `from`, with a voxel of the object, or 0. */
 int CoarsestLevelWithObject(
   const SegmentationLevels& levels, const SurfaceOptions& options, int from)
 {
@@ -116,30 +117,30 @@ int CoarsestLevelWithObject(
 }
 
 /**
- * Begins at the coarsest level that holds the object, at most `there`, the coarsest with any of it,
- * and at least the level to end at.
+ * Start at the coarsest level with a sufficiently large part of the object, between the level to
+ * end at and `withObject`, the coarsest level with a voxel of it.
  */
-void BeginWhereHeld(
-  LevelChoice& choice, int there, const SegmentationLevels& levels, const SurfaceOptions& options)
+void StartWhereContained(LevelChoice& choice, int withObject, const SegmentationLevels& levels,
+  const SurfaceOptions& options)
 {
-  const int last = std::exchange(choice.Coarsest, there);
-  // With recovery a surface that has vanished comes again, and the way on the last level is short.
-  if (!options.Drive().IsFieldAlone || (options.RecoverLostParts && there == last))
+  const int last = std::exchange(choice.Coarsest, withObject);
+  // With recovery a vanished surface is recovered, and the last level takes little time.
+  if (!options.Drive().IsFieldAlone || (options.RecoverMissedParts && withObject == last))
   {
     return;
   }
-  int level = there;
-  while (level > std::max(choice.Last, 0) && !levels.HoldsObject(level, options))
+  int level = withObject;
+  while (level > std::max(choice.Last, 0) && !levels.ContainsObject(level, options))
   {
     --level;
   }
-  choice.StartsAtParts = options.RecoverLostParts && levels.HoldsObject(level, options);
-  choice.Coarsest = options.RecoverLostParts && !choice.StartsAtParts ? there : level;
+  choice.StartsAtParts = options.RecoverMissedParts && levels.ContainsObject(level, options);
+  choice.Coarsest = options.RecoverMissedParts && !choice.StartsAtParts ? withObject : level;
 }
 
-/** @param there the coarsest level that has any of the object, finer than the one to start at */
-[[noreturn]] void RefuseCoarsest(
-  const LevelChoice& choice, const SegmentationSettings& settings, int there)
+/** @param withObject coarsest level with a voxel of the object, finer than choice.Coarsest */
+[[noreturn]] void ThrowInvalidCoarsestLevel(
+  const LevelChoice& choice, const SegmentationSettings& settings, int withObject)
 {
   const ValueRange range = settings.Range();
   const std::string where = range.IsUsed()
@@ -148,37 +149,36 @@ void BeginWhereHeld(
     : Join(settings.Options.ObjectIsBright ? "above" : "below", " Iso Value ", range.Lower);
   if (settings.EdgeLength != 0.0 && choice.Coarsest == choice.Last)
   {
-    Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", choice.Last,
-      ", but the object is too thin for it: no voxel is ", where,
-      " there. Give a shorter Edge Length.");
+    ThrowInvalidArgument("Edge Length is ", settings.EdgeLength, ", for which the finest level is ",
+      choice.Last, ", but no voxel is ", where,
+      " at this level, as the object is too thin. Set a shorter Edge Length.");
   }
-  Refuse("the object has vanished at level ", choice.Coarsest, ", the coarsest: no voxel is ",
-    where, " there. It is too thin for that level; set Coarsest Level to ", there,
-    ", where it is still there, or less.");
+  ThrowInvalidArgument("no voxel is ", where, " at the coarsest level, ", choice.Coarsest,
+    ", as the object is too thin. Set Coarsest Level to ", withObject, " or less.");
 }
 
-/** Starts at a level that has the object. */
+/** Start at a level that has the object. */
 void StartAtObject(
   LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
 {
-  // Every level shows what points mark.
-  const int there = levels.HasPoints()
+  // Attracting points are part of the object at every level.
+  const int withObject = levels.HasPoints()
     ? choice.Coarsest
     : CoarsestLevelWithObject(levels, settings.Options, choice.Coarsest);
-  choice.Preview = std::min(choice.Preview, there);
+  choice.Preview = std::min(choice.Preview, withObject);
   choice.Last = settings.End.Preview ? std::max(settings.End.FinestLevel, choice.Preview)
                                      : settings.End.FinestLevel;
-  if (!levels.HasPoints() && settings.CoarsestLevel == -1 && there >= choice.Last)
+  if (!levels.HasPoints() && settings.CoarsestLevel == -1 && withObject >= choice.Last)
   {
-    BeginWhereHeld(choice, there, levels, settings.Options);
+    StartWhereContained(choice, withObject, levels, settings.Options);
   }
-  else if (there != choice.Coarsest)
+  else if (withObject != choice.Coarsest)
   {
-    RefuseCoarsest(choice, settings, there);
+    ThrowInvalidCoarsestLevel(choice, settings, withObject);
   }
 }
 
-/** Starts at a level that has the object at the seeds. */
+/** Start at a level that has the object at the seeds. */
 void StartAtSeeds(
   LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
 {
@@ -197,20 +197,21 @@ void StartAtSeeds(
   }
   // With recovery the objects of other seeds are recovered.
   const std::size_t inside = levels.SeedsInside(choice.Coarsest);
-  if (inside == 0 || (inside < all && !settings.Options.RecoverLostParts))
+  if (inside == 0 || (inside < all && !settings.Options.RecoverMissedParts))
   {
-    const std::string where = Join(choice.Coarsest, ", where the object is too thin at ",
-      all - inside, " of ", all, " seeds. ");
+    const std::string where = Join(choice.Coarsest,
+      ", but at this level the object is too thin at ", all - inside, " of ", all, " seeds. ");
     if (settings.CoarsestLevel != -1)
     {
-      Refuse("Coarsest Level is ", where, "Set it to ", level, " or less, or to -1 (automatic).");
+      ThrowInvalidArgument(
+        "Coarsest Level is ", where, "Set it to ", level, " or less, or to -1 (automatic).");
     }
     if (settings.EdgeLength != 0.0)
     {
-      Refuse("Edge Length is ", settings.EdgeLength, ", for which the finest level is ", where,
-        "Give a shorter Edge Length.");
+      ThrowInvalidArgument("Edge Length is ", settings.EdgeLength,
+        ", for which the finest level is ", where, "Set a shorter Edge Length.");
     }
-    Refuse("Finest Level is ", where, "Set it to ", level, " or less.");
+    ThrowInvalidArgument("Finest Level is ", where, "Set it to ", level, " or less.");
   }
 }
 }
@@ -218,7 +219,7 @@ void StartAtSeeds(
 LevelChoice ChooseLevels(
   SegmentationLevels& levels, const SegmentationSettings& settings, Executor& threads)
 {
-  LevelChoice choice = LevelsAsSet(levels.Pyramid(), settings);
+  LevelChoice choice = RequestedLevels(levels.Pyramid(), settings);
   const ValueRange range = settings.Range();
   if (range.IsUsed())
   {
@@ -256,33 +257,34 @@ IndexedSurface Triangles(vtkPolyData* polyData)
   return surface;
 }
 
-IndexedSurface SurfaceOf(vtkPolyData* polyData, const Workspace& space)
+IndexedSurface SurfaceOf(vtkPolyData* polyData, const ComputationalSpace& space)
 {
   if (!polyData || polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() == 0)
   {
-    Refuse("The initial surface has no polygons. Give a closed surface, or choose another "
-           "Initialization.");
+    ThrowInvalidArgument(
+      "the initial surface has no polygons. Connect a closed surface, or choose another "
+      "Initialization.");
   }
-  if (const std::string fault = FaultOfCells(polyData); !fault.empty())
+  if (const std::string error = FindInvalidCells(polyData); !error.empty())
   {
-    Refuse("The initial surface ", fault);
+    ThrowInvalidArgument("the data ", error);
   }
   vtkNew<vtkTriangleFilter> triangulate;
   triangulate->SetInputData(polyData);
   triangulate->PassVertsOff();
   triangulate->PassLinesOff();
   triangulate->Update();
-  return ToWorkspace(Triangles(triangulate->GetOutput()), space);
+  return ToComputationalSpace(Triangles(triangulate->GetOutput()), space);
 }
 }
 
-SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+SurfaceStart StartOf(const SegmentationRequest& request, const ComputationalSpace& space,
   const std::vector<Point>& seeds)
 {
   const SegmentationSettings& settings = request.Settings;
   const bool hasSeeds = settings.Initialization == InitializationType::Seeds;
-  // Seeds do not grow through thin places, so their extent would depend on the level.
-  const bool selectsLater = hasSeeds && !seeds.empty() && settings.Options.RecoverLostParts &&
+  // Seeds do not grow through thin parts, so their extent would depend on the level.
+  const bool selectsLater = hasSeeds && !seeds.empty() && settings.Options.RecoverMissedParts &&
     settings.Options.Drive().IsFieldAlone;
   SurfaceStart start;
   start.Seeds = seeds;

@@ -5,7 +5,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/SurfaceEvolution.h"
-#include "Input/Workspace.h"
+#include "Input/ComputationalSpace.h"
 #include "Run/SegmentationLevels.h"
 #include "Settings/SegmentationSettings.h"
 
@@ -13,39 +13,38 @@
 
 namespace volumic
 {
-/** Which levels a run visits. */
+/** The levels of a run. */
 struct LevelChoice
 {
-  /** Preview ends at the finest level of at most so many voxels. */
-  static constexpr int VoxelsOfPreview = 1000000;
+  /** Maximum number of voxels of the level at which a preview ends. */
+  static constexpr int MaximumPreviewVoxels = 1000000;
 
   int Coarsest = 0;
-  /** Whether to start about the parts that the coarsest shows, as coarser ones show none. */
+  /** Whether to start with surfaces around the parts of the object at the coarsest level. */
   bool StartsAtParts = false;
-  int Last = 0;    ///< the finest to visit
-  int Preview = 0; ///< the finest to visit for a preview
+  int Last = 0;    ///< finest level
+  int Preview = 0; ///< finest level of a preview
 };
 
 /**
- * Those that the settings ask for. CoarsestLevel -1 becomes the coarsest level on which anything of
- * the object is left; and if that is not the last, or there is no recovery, on which a part of it
- * is large enough for a surface that starts there, where nothing but the isopotential moves it.
- * If there are seeds and CoarsestLevel is -1, the run starts at the coarsest level that has all of
- * them inside the object.
- * @throws std::invalid_argument if there are no such levels, if the iso-value is not within the
- *         voxels, or if nothing of the object is left at the coarsest level, or at its seeds.
+ * Choose the levels of a run. For CoarsestLevel -1 it starts at
+ * - the coarsest level that has all seeds inside the object, if there are seeds
+ * - else the coarsest level with any voxel of the object. If this is not the last level, or without
+ *   recovery, a part of the object must be large enough for a surface. This condition does not
+ *   apply if other forces than the isopotential move the surface.
+ * @throws InvalidArgument if the levels do not exist, if the iso-value is outside the range of the
+ *   voxels, or if the object is missing at the coarsest level or at its seeds
  */
 LevelChoice ChooseLevels(
   SegmentationLevels& levels, const SegmentationSettings& settings, Executor& threads);
 
 /**
- * What the surface begins with on the coarsest level, as Initialization says: the polygons of
- * the initial surface, triangulated, or the seeds (workspace). With recovery, and where nothing but
- * the isopotential moves it, the surface begins with all of the object instead of seeds, and the
- * components at seeds are selected later.
- * @throws std::invalid_argument for an initial surface that cannot be read
+ * Return the start at the coarsest level for Initialization: the triangulated initial surface, or
+ * the seeds in computational space. With recovery, and if only the isopotential moves the surface,
+ * a run with seeds starts around the whole object, and selects the components at seeds later.
+ * @throws InvalidArgument for an initial surface without polygons or with invalid cells
  */
-SurfaceStart StartOf(const SegmentationRequest& request, const Workspace& space,
+SurfaceStart StartOf(const SegmentationRequest& request, const ComputationalSpace& space,
   const std::vector<Point>& seeds);
 }
 

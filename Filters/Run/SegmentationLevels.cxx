@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Run/SegmentationLevels.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/InitialSurface.h"
 #include "Core/Image/Field.h"
 #include "Core/Image/ThickPart.h"
@@ -20,11 +20,11 @@ PyramidLevels LevelsOfVoxels(const SegmentationRequest& request, const Volume& v
 {
   const SegmentationSettings& settings = request.Settings;
   CheckEnumeration("Metric", settings.Metric, Metric::World);
-  return PrefixErrors(PlaceOfVoxels,
+  return PrefixErrors(VoxelErrorPrefix,
     [&] { return PyramidLevels(volume.Voxels, settings.Metric, settings.NaNIsBackground); });
 }
 
-/** What voxels get that are not valid: as far from the iso-value as any voxel is (Field.h). */
+/** Return the value of invalid voxels: as far from the iso-value as any voxel is (Field.h). */
 double BackgroundOf(const std::array<double, 2>& range, const SurfaceOptions& options)
 {
   const double iso = options.IsoValue;
@@ -40,7 +40,7 @@ SegmentationLevels::SegmentationLevels(const SegmentationRequest& request, const
   this->ReadSeeds(request);
   if (!volume.Edges.Levels.empty())
   {
-    this->Edges = PrefixErrors(PlaceOfEdges,
+    this->Edges = PrefixErrors(EdgeErrorPrefix,
       [&] { return std::make_unique<PyramidLevels>(volume.Edges, Metric::Voxels); });
   }
 }
@@ -52,18 +52,18 @@ void SegmentationLevels::ReadPoints(const SegmentationRequest& request)
     [&]
     {
       return AttractingPointsOf(
-        request.AttractingPoints, this->GetWorkspace(), this->Voxels.SizeOf(0));
+        request.AttractingPoints, this->GetComputationalSpace(), this->Voxels.SizeOf(0));
     });
-  for (const Point& place : PositionsOf(settings.AttractingPositions, "Attracting Positions",
-         this->GetWorkspace(), this->Voxels.SizeOf(0)))
+  for (const Point& position : PositionsOf(settings.AttractingPositions, "Attracting Positions",
+         this->GetComputationalSpace(), this->Voxels.SizeOf(0)))
   {
     points.emplace_back();
-    points.back().Place = place;
+    points.back().Position = position;
   }
   if (!points.empty() && settings.Options.PointAttractionWeight > 0.0)
   {
-    this->Points = std::make_unique<PointAttraction>(
-      std::move(points), settings.Options.PointAttractionWeight);
+    this->Points =
+      std::make_unique<PointAttraction>(std::move(points), settings.Options.PointAttractionWeight);
   }
 }
 
@@ -73,35 +73,35 @@ void SegmentationLevels::ReadSeeds(const SegmentationRequest& request)
   {
     return;
   }
-  this->PlaceOfSeeds =
+  this->SeedErrorPrefix =
     request.InitialSurface ? "Input port 1 (Initial Surface): " : "Seed Positions: ";
-  this->SeedPoints = PrefixErrors(
-    this->PlaceOfSeeds, [&] { return SeedsOf(request.InitialSurface, this->GetWorkspace()); });
+  this->SeedPoints = PrefixErrors(this->SeedErrorPrefix,
+    [&] { return SeedsOf(request.InitialSurface, this->GetComputationalSpace()); });
   const std::vector<Point> more = PositionsOf(request.Settings.End.SeedPositions, "Seed Positions",
-    this->GetWorkspace(), this->Voxels.SizeOf(0));
+    this->GetComputationalSpace(), this->Voxels.SizeOf(0));
   this->SeedPoints.insert(this->SeedPoints.end(), more.begin(), more.end());
 }
 
 namespace
 {
-/** @param highest value of the field at the seeds */
-[[noreturn]] void RefuseSeeds(
+/** @param highest highest value of the field at the seeds */
+[[noreturn]] void ThrowInvalidSeeds(
   std::size_t seeds, float highest, const SegmentationSettings& settings)
 {
   const bool isOne = seeds == 1;
   const bool isBright = settings.Options.ObjectIsBright;
   const ValueRange range = settings.Range();
-  const std::string which =
-    isOne ? "The seed does not lie" : Join("None of the ", seeds, " seeds lies");
-  const std::string what = Join(which, " inside the object, which has values ");
+  const std::string which = isOne ? "the seed is not" : Join("none of the ", seeds, " seeds is");
+  const std::string what = Join(which, " inside the object, whose values are ");
   const std::string move = Join(". Move ", isOne ? "it" : "one", " into the object, or set ");
   if (range.IsUsed())
   {
-    Refuse(what, isBright ? "" : "not ", "between Iso Value ", range.Lower, " and Upper Value ",
-      range.Upper, move, "other values.");
+    ThrowInvalidArgument(what, isBright ? "" : "not ", "between Iso Value ", range.Lower,
+      " and Upper Value ", range.Upper, move, "other values.");
   }
   const double value = range.Lower + static_cast<double>(isBright ? highest : -highest);
-  Refuse(what, isBright ? "above" : "below", " Iso Value ", range.Lower, ": the value there is ",
+  ThrowInvalidArgument(what, isBright ? "above" : "below", " Iso Value ", range.Lower,
+    ": the value at the seed", isOne ? "" : "s", " is ",
     isOne ? "" : (isBright ? "at most " : "at least "), value, move,
     isBright ? "a lower" : "a higher", " Iso Value.");
 }
@@ -117,15 +117,15 @@ void SegmentationLevels::TestSeeds(
   for (int level = 0; level <= coarsest; ++level)
   {
     const Field field(this->Load(level, settings.Options, threads), settings.Options, threads);
-    const std::vector<float> values = PrefixErrors(
-      this->PlaceOfSeeds, [&] { return ValuesAtSeeds(field, this->SeedPoints); });
+    const std::vector<float> values =
+      PrefixErrors(this->SeedErrorPrefix, [&] { return ValuesAtSeeds(field, this->SeedPoints); });
     if (level == 0)
     {
       const float highest = *std::max_element(values.begin(), values.end());
       if (!(highest > 0))
       {
         PrefixErrors(
-          this->PlaceOfSeeds, [&] { RefuseSeeds(values.size(), highest, settings); });
+          this->SeedErrorPrefix, [&] { ThrowInvalidSeeds(values.size(), highest, settings); });
       }
       std::vector<Point> inside;
       for (std::size_t i = 0; i < values.size(); ++i)
@@ -144,35 +144,35 @@ void SegmentationLevels::TestSeeds(
 
 std::array<double, 2> SegmentationLevels::Range(int level) const
 {
-  return PrefixErrors(PlaceOfVoxels, [&] { return this->Voxels.Range(level); });
+  return PrefixErrors(VoxelErrorPrefix, [&] { return this->Voxels.Range(level); });
 }
 
-bool SegmentationLevels::HoldsObject(int level, const SurfaceOptions& options) const
+bool SegmentationLevels::ContainsObject(int level, const SurfaceOptions& options) const
 {
-  const auto found = this->Holds.find(level);
-  if (found != this->Holds.end())
+  const auto found = this->HasObject.find(level);
+  if (found != this->HasObject.end())
   {
     return found->second;
   }
   const PartSize least =
-    options.RecoverLostParts ? PartSize{ options.MinimumPartSize, 1 } : PartThatHolds;
-  return this->Holds[level] =
-           this->Voxels.HoldsPart(level, least, options.IsoValue, options.ObjectIsBright);
+    options.RecoverMissedParts ? PartSize{ options.MinimumPartSize, 1 } : SmallestPart;
+  return this->HasObject[level] =
+           this->Voxels.ContainsPart(level, least, options.IsoValue, options.ObjectIsBright);
 }
 
 LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Executor& threads)
 {
   const double background = BackgroundOf(this->Range(std::max(level, 0)), options);
-  LevelImage image = PrefixErrors(
-    PlaceOfVoxels, [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
+  LevelImage image = PrefixErrors(VoxelErrorPrefix,
+    [&] { return this->Voxels.Load(level, options.IsoValue, background, threads); });
   if (this->Edges)
   {
     image.Edges = this->LoadEdges(level, image.Size, threads);
   }
   if (this->Points)
   {
-    this->Bent = this->Points->Bend(image, options, threads);
-    image.Values = this->Bent.data();
+    this->Modified = this->Points->Bend(image, options, threads);
+    image.Values = this->Modified.data();
   }
   return image;
 }
@@ -180,19 +180,19 @@ LevelImage SegmentationLevels::Load(int level, const SurfaceOptions& options, Ex
 VoxelValues SegmentationLevels::LoadEdges(
   int level, const std::array<int, 3>& size, Executor& threads)
 {
-  return PrefixErrors(PlaceOfEdges,
+  return PrefixErrors(EdgeErrorPrefix,
     [&]
     {
-      // The force knows differences only.
+      // The force depends on differences only.
       const double lowest = this->Edges->Range(0)[0];
       const LevelImage loaded = level < this->Edges->NumberOfLevels()
         ? this->Edges->Load(level, lowest, lowest, threads)
         : LevelImage();
       if (loaded.Size != size)
       {
-        Refuse("its level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",
-          loaded.Size[2], " voxels, that of the voxels ", size[0], " x ", size[1], " x ", size[2],
-          ". Give the image instead of its pyramid, or one whose blocks all carry both arrays.");
+        ThrowInvalidArgument("level ", level, " has ", loaded.Size[0], " x ", loaded.Size[1], " x ",
+          loaded.Size[2], " voxels, but the level of the image has ", size[0], " x ", size[1],
+          " x ", size[2], ". Connect the image, or a pyramid whose blocks all have both arrays.");
       }
       return loaded.Values;
     });
@@ -205,6 +205,6 @@ void SegmentationLevels::ReleaseCoarserThan(int level)
   {
     this->Edges->ReleaseCoarserThan(level);
   }
-  this->Bent = std::vector<float>();
+  this->Modified = std::vector<float>();
 }
 }

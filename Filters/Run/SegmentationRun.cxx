@@ -18,12 +18,12 @@ namespace volumic
 {
 namespace
 {
-/** Return null if memory is exhausted. The copy is optional. */
-std::unique_ptr<SurfaceAtRest> CopyIfRoom(const SurfaceAtRest& rest)
+/** Return a copy, or null if memory does not suffice. */
+std::unique_ptr<ConvergedSurface> TryCopy(const ConvergedSurface& surface)
 {
   try
   {
-    return std::make_unique<SurfaceAtRest>(rest);
+    return std::make_unique<ConvergedSurface>(surface);
   }
   catch (const std::bad_alloc&)
   {
@@ -37,17 +37,17 @@ SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volum
 {
   this->Settings.Check();
   SurfaceOptions& options = this->Settings.Options;
-  options.RecoverLostParts = this->Settings.Recovery != RecoveryType::NoRecovery;
-  // Voxels above the range lie inside the object in most images.
-  options.RecoverCavities = options.RecoverLostParts &&
+  options.RecoverMissedParts = this->Settings.Recovery != RecoveryType::NoRecovery;
+  // Voxels above the range are enclosed by the object in most images.
+  options.RecoverCavities = options.RecoverMissedParts &&
     (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
       this->Settings.Range().IsUsed());
-  options.SeedRadius /= this->Levels.GetWorkspace().WorldUnit();
+  options.SeedRadius /= this->Levels.GetComputationalSpace().WorldUnit();
   if (this->Settings.EdgeLength != 0.0 && !volume.IsOfImage)
   {
     this->ChooseEdgeLength();
   }
-  this->Request.Volume = nullptr; // A level is released after use.
+  this->Request.Volume = nullptr; // The levels are released one by one.
 }
 
 void SegmentationRun::ChooseEdgeLength()
@@ -76,7 +76,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
 {
   HostThreads threads(request.Settings.End.NumberOfThreads);
   const bool hasAll = this->HasAll(request);
-  if (!hasAll && !this->CanGoOn())
+  if (!hasAll && !this->CanResume())
   {
     return false;
   }
@@ -95,7 +95,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
   {
     const int before =
       std::exchange(this->Choice, ChooseLevels(this->Levels, settings, threads)).Coarsest;
-    // The coarsest level may depend on the finest one. If it changes, restart.
+    // The coarsest level may depend on the finest one. Restart if it changes.
     if (this->Choice.Coarsest != before)
     {
       if (!this->Levels.Pyramid().HasVoxels(this->Choice.Coarsest))
@@ -111,7 +111,7 @@ bool SegmentationRun::Renew(const SegmentationRequest& request)
 bool SegmentationRun::ChooseComponents(const SegmentationRequest& request, Executor& threads)
 {
   ComponentChoice choice =
-    ChoiceOf(request, this->Levels.GetWorkspace(), this->Levels.Pyramid().SizeOf(0));
+    ChoiceOf(request, this->Levels.GetComputationalSpace(), this->Levels.Pyramid().SizeOf(0));
   choice.Seeds = this->Levels.Seeds();
   return this->Finished.Choose(choice, threads);
 }
@@ -119,10 +119,10 @@ bool SegmentationRun::ChooseComponents(const SegmentationRequest& request, Execu
 void SegmentationRun::Begin()
 {
   this->Finished = FinishedLevels(this->Levels.Pyramid().NumberOfLevels(), this->Choice.Coarsest,
-    this->Levels.GetWorkspace());
-  this->Rest = SurfaceAtRest();
+    this->Levels.GetComputationalSpace());
+  this->Converged = ConvergedSurface();
   this->Reached = this->Choice.Coarsest + 1;
-  this->GoesOn = true;
+  this->CanContinue = true;
 }
 
 void SegmentationRun::Run(RunObserver& observer, double before)
@@ -136,12 +136,12 @@ void SegmentationRun::Run(RunObserver& observer, double before)
     CheckOptions(this->Settings.Options);
   }
   this->Finished.SetStopped("");
-  if (!this->HasCome())
+  if (!this->HasReachedEnd())
   {
     LevelMonitor monitor(observer, before, this->Choice.Coarsest, this->EndsAt());
-    this->Rest.History.StartClock(observer.Start());
+    this->Converged.History.StartClock(observer.Start());
     while (
-      this->GoesOn && this->Reached > this->EndsAt() && this->Next(observer, monitor, threads))
+      this->CanContinue && this->Reached > this->EndsAt() && this->Next(observer, monitor, threads))
     {
     }
   }
@@ -151,9 +151,9 @@ void SegmentationRun::Run(RunObserver& observer, double before)
 bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThreads& threads)
 {
   const int level = this->Reached - 1;
-  // Kept in case the finer level is stopped.
-  const std::unique_ptr<SurfaceAtRest> before =
-    this->Request.MayGoOn && level < this->Choice.Coarsest ? CopyIfRoom(this->Rest) : nullptr;
+  // Keep a copy in case this level is stopped.
+  const std::unique_ptr<ConvergedSurface> before =
+    this->Request.MayResume && level < this->Choice.Coarsest ? TryCopy(this->Converged) : nullptr;
   LevelOutcome outcome;
   if (monitor.BeginLevel(level))
   {
@@ -164,32 +164,32 @@ bool SegmentationRun::Next(RunObserver& observer, LevelMonitor& monitor, HostThr
     outcome = this->Evolve(task, monitor, threads);
   }
   const bool isStopped = outcome.Reason == StopReason::Cancelled;
-  if (outcome.HasCome)
+  if (outcome.HasReachedLevel)
   {
     this->KeepLevel(level, std::move(outcome), observer, threads);
     if (level == this->EndsAt() && this->PreviewMissesParts(level))
     {
       this->Choice.Last = this->Choice.Preview = level - 1;
-      monitor.GoOnTo(level - 1);
+      monitor.ContinueAtLevel(level - 1);
     }
   }
   else
   {
     this->Finished.SetStopped(observer.StopReason());
   }
-  this->Finished.SetRows(this->Rest.History.Rows);
+  this->Finished.SetRows(this->Converged.History.Rows);
   if (isStopped && before)
   {
-    this->Rest = std::move(*before);
+    this->Converged = std::move(*before);
     this->Reached = level + 1;
-    this->GoesOn = true;
+    this->CanContinue = true;
   }
   return !isStopped;
 }
 
 LevelTask SegmentationRun::TaskOf(int level, const LevelImage& image, HostThreads& threads)
 {
-  const double unit = this->Levels.GetWorkspace().WorldUnit();
+  const double unit = this->Levels.GetComputationalSpace().WorldUnit();
   LevelTask task;
   task.Options = this->Settings.Options;
   task.Image = image;
@@ -202,7 +202,7 @@ LevelTask SegmentationRun::TaskOf(int level, const LevelImage& image, HostThread
     task.Grading.Tolerance /= unit;
     task.Grading.MaximumEdgeLength /= unit;
   }
-  task.Look = [this, level, &threads](int iteration, const std::function<SurfaceResult()>& take)
+  task.Observe = [this, level, &threads](int iteration, const std::function<SurfaceResult()>& take)
   { this->TakeSnapshot(level, iteration, take, threads); };
   return task;
 }
@@ -211,20 +211,20 @@ LevelOutcome SegmentationRun::Evolve(LevelTask& task, LevelMonitor& monitor, Hos
 {
   if (task.Level < this->Choice.Coarsest)
   {
-    return EvolveOnLevel(task, this->Rest, threads, monitor);
+    return EvolveOnLevel(task, this->Converged, threads, monitor);
   }
   const bool isGiven = this->Settings.Initialization == InitializationType::InputSurface;
   return PrefixErrors(isGiven ? "Input port 1 (Initial Surface): " : "",
     [&]
     {
       SurfaceStart start =
-        StartOf(this->Request, this->Levels.GetWorkspace(), this->Levels.Seeds());
+        StartOf(this->Request, this->Levels.GetComputationalSpace(), this->Levels.Seeds());
       if (start.From == SurfaceStart::Kind::Enclosing && this->Choice.StartsAtParts)
       {
         start.From = SurfaceStart::Kind::EnclosingParts;
       }
       task.Start = &start;
-      return EvolveOnLevel(task, this->Rest, threads, monitor);
+      return EvolveOnLevel(task, this->Converged, threads, monitor);
     });
 }
 
@@ -236,23 +236,24 @@ void SegmentationRun::TakeSnapshot(
   {
     return;
   }
-  // Surfaces exist at the end of a sweep of several iterations only.
-  const bool isDue = iteration == 0 || iteration / interval > this->SnapshotLook / interval;
-  this->SnapshotLook = iteration;
+  // There is a surface only at the end of a sweep of several iterations.
+  const bool isDue =
+    iteration == 0 || iteration / interval > this->LastSnapshotIteration / interval;
+  this->LastSnapshotIteration = iteration;
   SurfaceResult surface = isDue ? take() : SurfaceResult();
   if (!surface.Points.empty())
   {
-    SurfaceDescription about;
-    about.Level = level;
-    about.StartLevel = this->Choice.Coarsest;
-    about.Unit = this->Levels.Pyramid().UnitInWorld(level);
-    about.Iterations = iteration;
-    about.TotalIterations = static_cast<int>(this->Rest.History.Rows.size());
+    SurfaceDescription description;
+    description.Level = level;
+    description.StartLevel = this->Choice.Coarsest;
+    description.Unit = this->Levels.Pyramid().UnitInWorld(level);
+    description.Iterations = iteration;
+    description.TotalIterations = static_cast<int>(this->Converged.History.Rows.size());
     ComponentChoice choice;
     choice.Seeds = this->Levels.Seeds();
     this->Finished.AddSnapshot(level, Join("Level ", level, ", iteration ", iteration),
       MakePolyData(
-        std::move(surface), about, this->Levels.GetWorkspace(), choice, threads));
+        std::move(surface), description, this->Levels.GetComputationalSpace(), choice, threads));
   }
 }
 
@@ -261,15 +262,15 @@ void SegmentationRun::KeepLevel(
 {
   const StopReason reason = outcome.Reason;
   FinishedLevel finished;
-  finished.IsAtRest = reason != StopReason::Cancelled;
-  finished.About.Level = level;
-  finished.About.StartLevel = this->Choice.Coarsest;
-  finished.About.Unit = this->Levels.Pyramid().UnitInWorld(level);
-  finished.About.Iterations = outcome.Iterations;
-  finished.About.StopReason = finished.IsAtRest ? Describe(reason) : observer.StopReason();
+  finished.IsConverged = reason != StopReason::Cancelled;
+  finished.Description.Level = level;
+  finished.Description.StartLevel = this->Choice.Coarsest;
+  finished.Description.Unit = this->Levels.Pyramid().UnitInWorld(level);
+  finished.Description.Iterations = outcome.Iterations;
+  finished.Description.StopReason = finished.IsConverged ? Describe(reason) : observer.StopReason();
   if (level < this->Choice.Coarsest || this->Choice.StartsAtParts)
   {
-    finished.About.Lost = outcome.Lost;
+    finished.Description.Missed = outcome.Missed;
   }
   if (outcome.Verified.Found > 0)
   {
@@ -277,25 +278,25 @@ void SegmentationRun::KeepLevel(
   }
   this->Finished.Add(
     std::move(finished), std::move(outcome.Surface), this->Request.KeepsAll, threads);
-  this->Rest.History.EndLevel();
+  this->Converged.History.EndLevel();
   this->Reached = level;
   // With recovery a finer level may recover a vanished surface.
-  this->GoesOn = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
+  this->CanContinue = reason == StopReason::Converged || reason == StopReason::LimitCycle ||
     reason == StopReason::IterationLimit ||
-    (reason == StopReason::Vanished && this->Settings.Options.RecoverLostParts);
+    (reason == StopReason::Vanished && this->Settings.Options.RecoverMissedParts);
 }
 
 bool SegmentationRun::PreviewMissesParts(int level) const
 {
-  return this->Settings.End.Preview && this->GoesOn &&
+  return this->Settings.End.Preview && this->CanContinue &&
     level > std::max(this->Settings.End.FinestLevel, 0) &&
     this->Settings.Recovery != RecoveryType::NoRecovery &&
-    this->Finished.About(level).Lost.MissingBoundary > FinishedLevels::NotableShare;
+    this->Finished.DescriptionOf(level).Missed.MissingBoundary > FinishedLevels::NotableFraction;
 }
 
-void SegmentationRun::LetGo()
+void SegmentationRun::ReleaseRunData()
 {
   this->Levels.ReleaseCoarserThan(PyramidLevels::AllLevels);
-  this->Rest = SurfaceAtRest();
+  this->Converged = ConvergedSurface();
 }
 }

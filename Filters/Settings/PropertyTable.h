@@ -14,8 +14,8 @@
 
 /**
  * The properties of vtkDeformableSurface, one per line: name, type of Set and Get, member of
- * SegmentationSettings with the default, and whether a change needs a new run. Other changes affect
- * the finest level or the outputs only, and reuse the kept run.
+ * SegmentationSettings, and whether a change needs a new run. Other changes affect only the finest
+ * level or the outputs, and reuse the kept run.
  *
  * PrintSelf() is generated from all lines, Set and Get from the lines with MADE.
  * Testing/Python/test_reference.py checks that each Set method has a line.
@@ -66,10 +66,7 @@
 
 namespace volumic
 {
-/**
- * What a setting has of a value that Set gets: an int may stand for an enumeration. An unsigned
- * setting is 0 for negative values.
- */
+/** Convert the value of a property to its setting. A negative value of an unsigned setting is 0. */
 template <typename Setting, typename Value>
 Setting SettingOf(Value value)
 {
@@ -87,7 +84,7 @@ Setting SettingOf(Value value)
   }
 }
 
-/** What Get returns of a setting. */
+/** Convert a setting to the value of its property. */
 template <typename Value, typename Setting>
 Value ValueOf(const Setting& setting)
 {
@@ -101,7 +98,7 @@ Value ValueOf(const Setting& setting)
   }
 }
 
-/** As PrintSelf() tells it: of a list only how many there are. */
+/** Print a setting. Of a list print the number of entries. */
 template <typename Setting>
 void PrintSetting(std::ostream& os, const Setting& setting)
 {
@@ -120,28 +117,28 @@ void PrintSetting(std::ostream& os, const Setting& setting)
 }
 }
 
-// As vtkGetMacro() and vtkSetMacro() of vtkSetGet.h, but for where the value is: a member of the
-// class, or of what it holds. When it has changed, `modified` is called.
-#define VOLUMIC_SET_AND_GET(Class, name, type, setting, modified)                \
-  type Class::Get##name()                                                        \
-  {                                                                              \
-    const auto value = volumic::ValueOf<type>(this->setting);                    \
-    vtkDebugMacro(<< "returning " #name " of " << value);                        \
-    return value;                                                                \
-  }                                                                              \
-  void Class::Set##name(type value)                                              \
-  {                                                                              \
-    auto& now = this->setting;                                                   \
-    const auto wanted = volumic::SettingOf<std::decay_t<decltype(now)>>(value);  \
-    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(wanted)); \
-    if (now != wanted)                                                           \
-    {                                                                            \
-      now = wanted;                                                              \
-      modified;                                                                  \
-    }                                                                            \
+// Define Get and Set as vtkGetMacro() and vtkSetMacro() do, for a setting that may be a member of a
+// member. Set executes `modified` if the value changes.
+#define VOLUMIC_SET_AND_GET(Class, name, type, setting, modified)                      \
+  type Class::Get##name()                                                              \
+  {                                                                                    \
+    const auto value = volumic::ValueOf<type>(this->setting);                          \
+    vtkDebugMacro(<< "returning " #name " of " << value);                              \
+    return value;                                                                      \
+  }                                                                                    \
+  void Class::Set##name(type value)                                                    \
+  {                                                                                    \
+    auto& current = this->setting;                                                     \
+    const auto requested = volumic::SettingOf<std::decay_t<decltype(current)>>(value); \
+    vtkDebugMacro(<< "setting " #name " to " << volumic::ValueOf<type>(requested));    \
+    if (current != requested)                                                          \
+    {                                                                                  \
+      current = requested;                                                             \
+      modified;                                                                        \
+    }                                                                                  \
   }
 
-// Set and Get of a deprecated property without effect. Set reports a warning.
+// Define Get and Set of a deprecated property without effect. Set reports a warning.
 #define VOLUMIC_DEPRECATED(Class, name, type, text)                     \
   type Class::Get##name()                                               \
   {                                                                     \

@@ -10,8 +10,8 @@ namespace volumic
 {
 namespace
 {
-/** Why there is a grading, for an error. */
-std::string WhatGrades(const Grading& grading)
+/** Return the property that requests a grading, for messages. */
+std::string DescribeGrading(const Grading& grading)
 {
   return grading.HasTolerance() ? Join("Tolerance is ", grading.Tolerance) : "Thin Parts is on";
 }
@@ -23,23 +23,24 @@ void CheckGrading(const Grading& grading, double edgeLength)
   {
     if (!(value >= 0.0 && std::isfinite(value)))
     {
-      Refuse(name, " is ", value, "; it must be 0 (", zero, ") or more, in world units.");
+      ThrowInvalidArgument(
+        name, " is ", value, ". Set it to 0 (", zero, ") or more, in world units.");
     }
   };
   checkLength("Tolerance", grading.Tolerance, "edges of one length");
   checkLength("Maximum Edge Length", grading.MaximumEdgeLength, "automatic");
   if (!(grading.Gradation > 0.0) || grading.Gradation > Grading::MostGradation)
   {
-    Refuse("Gradation is ", grading.Gradation, "; it must be more than 0 and at most ",
+    ThrowInvalidArgument("Gradation is ", grading.Gradation, ". Set it to more than 0 and at most ",
       Grading::MostGradation, ".");
   }
-  if (grading.IsWanted() && edgeLength != 0.0)
+  if (grading.IsRequested() && edgeLength != 0.0)
   {
-    Refuse(WhatGrades(grading), " and Edge Length is ", edgeLength, ": edges either ",
-      grading.HasTolerance() ? "keep a tolerance" : "are shorter in thin parts",
-      " or are of one length. Set Edge Length to 0, or switch ",
-      grading.HasTolerance() && grading.ThinParts ? "Tolerance and Thin Parts" : "the other",
-      " off.");
+    ThrowInvalidArgument(DescribeGrading(grading), " and Edge Length is ", edgeLength,
+      ", but graded edges have no uniform length. Set Edge Length to 0, or ",
+      grading.HasTolerance() ? "set Tolerance to 0" : "",
+      grading.HasTolerance() && grading.ThinParts ? " and " : "",
+      grading.ThinParts ? "switch Thin Parts off" : "", ".");
   }
 }
 
@@ -51,27 +52,29 @@ void SegmentationSettings::Check() const
   CheckEnumeration("Recovery", this->Recovery, RecoveryType::RecoverObjectsAndCavities);
   if (options.MaximumNumberOfIterations < 1)
   {
-    Refuse("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
-      "; it must be at least 1.");
+    ThrowInvalidArgument("Maximum Number Of Iterations is ", options.MaximumNumberOfIterations,
+      ". Set it to at least 1.");
   }
   if (this->SnapshotInterval < 0)
   {
-    Refuse("Snapshot Interval is ", this->SnapshotInterval, "; it must be 0 (off) or more.");
+    ThrowInvalidArgument(
+      "Snapshot Interval is ", this->SnapshotInterval, ". Set it to 0 (none) or more.");
   }
   if (options.SeedRadius < 0.0 || !std::isfinite(options.SeedRadius))
   {
-    Refuse("Seed Radius is ", options.SeedRadius, "; it must be 0 (automatic) or more.");
+    ThrowInvalidArgument(
+      "Seed Radius is ", options.SeedRadius, ". Set it to 0 (automatic) or more.");
   }
   CheckGrading(this->Grading, this->EdgeLength);
-  if (this->Grading.IsWanted() && !options.Drive().LiesAtIsoValue)
+  if (this->Grading.IsRequested() && !options.Drive().LiesAtIsoValue)
   {
-    Refuse(WhatGrades(this->Grading), ", but ",
+    ThrowInvalidArgument(DescribeGrading(this->Grading), ", but ",
       options.SnapToIsoValue ? "Isopotential Weight is not more than Edge Attraction Weight"
                              : "Snap To Iso Value is off",
-      ": the surface does not lie at the iso-value, from which ",
-      this->Grading.HasTolerance() ? "a tolerance is measured. Set it to 0"
-                                   : "thickness is. Switch it off",
-      ", or change that.");
+      ", so the surface is not on the isosurface. ",
+      this->Grading.HasTolerance() ? "Set Tolerance to 0, or " : "Switch Thin Parts off, or ",
+      options.SnapToIsoValue ? "set a larger Isopotential Weight."
+                             : "switch Snap To Iso Value on.");
   }
 }
 }

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""From numpy arrays to surfaces, without VTK's pipeline: volumic.surface and volumic.labels."""
+"""Surfaces of NumPy arrays without a VTK pipeline: volumic.surface and volumic.labels."""
 
 from __future__ import annotations
 
@@ -20,28 +20,27 @@ from . import messages
 from . import vtkFiltersVolumic as filters
 from .errors import VolumeError
 from .reading.volume import Volume, check_positions
-from .writing.files import beside, replace_file
+from .writing.files import replace_file, temporary_path
 from .writing.surfaces import FORMATS, write_vtm
 
 
 class FilterError(RuntimeError):
-    """The error message of a filter."""
+    """A filter reported an error."""
 
 
 class Surface:
-    """A closed surface.
+    """A closed triangulated surface.
 
     Attributes
     ----------
     points : ndarray, n x 3
         World coordinates x, y, z.
     triangles : ndarray, m x 3
-        Indices of points, counter-clockwise seen from outside.
+        Point indices, counter-clockwise seen from outside.
     arrays : dict of ndarray
-        Per point (`Normals`, ...) or per triangle (`Component`, ...), by name. All arrays share
-        VTK's memory.
+        Point arrays (`Normals`, ...) and cell arrays (`Component`, ...) by name, in VTK's memory.
     report : dict
-        The field data by name: `Area`, `Volume`, `StopReason`, ...; `Warnings` of the filter.
+        Field data by name (`Area`, `Volume`, `StopReason`, ...), and `Warnings` of the filter.
     """
 
     def __init__(self, polydata: Any, notes: Sequence[str] = ()) -> None:
@@ -55,34 +54,32 @@ class Surface:
         self.report = _fields(polydata, notes)
 
     def __repr__(self) -> str:
-        facts = {"components": "NumberOfComponents", "genus": "Genus", "volume": "Volume"}
+        fields = {"components": "NumberOfComponents", "genus": "Genus", "volume": "Volume"}
         return (f"<volumic.Surface: {len(self.points)} points, {len(self.triangles)} triangles"
-                + "".join(f", {text} {self.report[name]:g}" for text, name in facts.items()
+                + "".join(f", {text} {self.report[name]:g}" for text, name in fields.items()
                           if isinstance(self.report.get(name), (int, float))) + ">")
 
     def __reduce__(self) -> Any:
         return _unpickled, (Surface, _serialized(self._polydata), self.report.get("Warnings", ()))
 
     def to_vtk(self) -> Any:
-        """The vtkPolyData, with all arrays and field data."""
+        """Return the vtkPolyData, with all arrays and field data."""
         return self._polydata
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a .vtp or .vtk (with all arrays), .ply (points, normals, triangles), .stl or .obj.
-
-        The file at `path` is replaced when the new one is whole.
-        """
+        """Write a .vtp or .vtk (all arrays), .ply (points, normals, triangles), .stl or .obj file.
+        It replaces an existing file once complete. Raise ValueError if the suffix is unknown."""
         replace_file(path, self.to_bytes(os.path.splitext(path)[1].lower()))
 
     def to_bytes(self, suffix: str) -> bytes:
-        """What save() writes."""
+        """Return the content of a file with this suffix, see save()."""
         if suffix not in FORMATS:
-            raise ValueError(f"'{suffix}' is no format of surfaces; there are {', '.join(FORMATS)}")
+            raise ValueError(f"'{suffix}' is not a surface format; use one of {', '.join(FORMATS)}")
         return b"".join(FORMATS[suffix](self._polydata, "volumic"))
 
 
 class Surfaces(dict[int, Surface]):
-    """The surface of each label, in the order of their values; `report` is that of the whole."""
+    """Surfaces by label value, in increasing order. `report` has the field data of all."""
 
     def __init__(self, blocks: Any, notes: Sequence[str] = ()) -> None:
         surfaces = [Surface(blocks.GetBlock(i)) for i in range(blocks.GetNumberOfBlocks())]
@@ -95,13 +92,13 @@ class Surfaces(dict[int, Surface]):
         return _unpickled, (Surfaces, _serialized(self._blocks), self.report.get("Warnings", ()))
 
     def to_vtk(self) -> Any:
-        """The vtkMultiBlockDataSet, a block for each label."""
+        """Return the vtkMultiBlockDataSet, one block per label."""
         return self._blocks
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write them to a .vtm, or each to `label-3.vtp` in a folder, which is made."""
+        """Write a .vtm file, or one file `label-3.vtp` per label to a folder, which is created."""
         if os.path.splitext(path)[1].lower() == ".vtm":
-            with beside(path) as written:
+            with temporary_path(path) as written:
                 write_vtm(self._blocks, written)
             return
         os.makedirs(path, exist_ok=True)
@@ -110,7 +107,7 @@ class Surfaces(dict[int, Surface]):
 
 
 def _serialized(data: Any) -> bytes:
-    """A data object of VTK with its arrays, field data and names as bytes."""
+    """Return a VTK data object as bytes."""
     from vtkmodules.vtkParallelCore import vtkCommunicator
     buffer = vtkCharArray()
     vtkCommunicator.MarshalDataObject(data, buffer)
@@ -128,24 +125,23 @@ def _unpickled(kind: Any, content: bytes, notes: Sequence[str]) -> Any:
 def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | None = None,
             origin: Sequence[float] | None = None, direction: Any = None,
             start: Sequence[int] | None = None, **properties: Any) -> Surface:
-    """The closed surface at an iso-value of a volume, by vtkVolumeToSurface.
+    """Compute the closed surface of an object in a volume, by vtkVolumeToSurface.
 
     Parameters
     ----------
     array : array_like or Volume
-        Voxels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
+        Voxels [z, y, x], or the result of `volumic.read`. Contiguous arrays are not copied.
     iso : float, optional
-        The value on the surface (default: Otsu's threshold, a guess, with a warning).
-        With `UpperValue=...` the object has the values between the two.
+        Image value at the surface (default: Otsu's threshold, with a warning). With
+        `UpperValue=...` the object has values between the two.
     spacing, origin : sequence of 3 floats, optional
-        x, y, z: voxel distances (default 1), and position of voxel 0 (default 0), in the world.
+        Voxel spacing (default 1) and position of voxel 0 (default 0) along x, y, z, in world units.
     direction : array_like, 3 x 3, optional
-        Its columns are the unit vectors of index x, y, z in the world.
+        Columns are the unit vectors of the index axes x, y, z in world coordinates.
     start : sequence of 3 ints, optional
-        x, y, z: the index of the first voxel, where `array` is a crop: `origin` stays that of the
-        whole.
+        Index x, y, z of the first voxel if `array` is a crop. `origin` is that of the whole volume.
     **properties
-        Those of vtkVolumeToSurface, by their names: `FinestLevel=1`.
+        Properties of vtkVolumeToSurface, such as `FinestLevel=1`; see its help.
 
     Returns
     -------
@@ -154,9 +150,16 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     Raises
     ------
     TypeError
-        The filter has no such property.
+        The filter has no such property, or the type of its value is wrong.
+    ValueError
+        The array, its position or `iso` is invalid.
     FilterError
-        The error message of the filter.
+        The filter reported an error.
+
+    Warns
+    -----
+    UserWarning
+        For each warning of the filter.
 
     Examples
     --------
@@ -176,7 +179,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
         otsu.SetInputDataObject(algorithm.GetInputDataObject(0, 0))
         _run(otsu)
         iso = otsu.GetThreshold()
-        notes.append(f"The iso-value is {iso:g}, a guess by Otsu's threshold.")
+        notes.append(f"No iso-value is given; Otsu's threshold {iso:g} is used.")
     if iso is not None:
         algorithm.SetIsoValue(iso)
     notes += _run(algorithm)
@@ -186,24 +189,31 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
            origin: Sequence[float] | None = None, direction: Any = None,
            start: Sequence[int] | None = None, **properties: Any) -> Surfaces:
-    """A closed surface around each label of a map, by vtkLabelsToSurfaces; neighbours share it.
+    """Compute a closed surface around each label of a label map, by vtkLabelsToSurfaces.
+
+    Adjacent labels share their interface.
 
     Parameters
     ----------
     array : array_like of integers or Volume
-        Labels [z, y, x], or what `volumic.read` returns. What is contiguous is not copied.
+        Labels [z, y, x], or the result of `volumic.read`. Contiguous arrays are not copied.
     only : sequence of ints, optional
-        Labels that get a surface; by default all but BackgroundLabel. A surface does not depend on
-        the others.
+        Labels to compute (default: all but BackgroundLabel). The surface of a label does not depend
+        on this selection.
     spacing, origin, direction, start
-        As in `volumic.surface`, which raises the same exceptions.
+        See `volumic.surface`.
     **properties
-        Those of vtkLabelsToSurfaces, by their names: `Smoothing=1.5`.
+        Properties of vtkLabelsToSurfaces, such as `Smoothing=1.5`; see its help.
 
     Returns
     -------
     Surfaces
-        {label: Surface}. With Merge it is one, by the first label.
+        Surface by label. With Merge, one surface under the first label.
+
+    Raises
+    ------
+    TypeError, ValueError, FilterError
+        See `volumic.surface`.
     """
     algorithm = filters.vtkLabelsToSurfaces()
     _set(algorithm, properties)
@@ -215,7 +225,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
 
 
 def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[int]]:
-    """{label: [voxels, first x, last x, first y, last y, first z, last z]}, by vtkLabelTable."""
+    """Return [voxels, first x, last x, first y, ..., last z] by label, see vtkLabelTable."""
     table = filters.vtkLabelTable()
     table.SetInputData(_input(array, None, None, None, start))
     _run(table)
@@ -225,22 +235,22 @@ def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[
 
 
 def quality(surface: Surface) -> dict[str, Any]:
-    """The smallest angle of the triangles in degrees, and the mean of their 4 sqrt(3) area / sum of
-    squared sides, which is 1 for an equilateral triangle."""
+    """Return the minimum angle of the triangles in degrees and their mean quality, 4 sqrt(3) area /
+    sum of squared edge lengths (1 for an equilateral triangle)."""
     corners = np.asarray(surface.points, float)[surface.triangles]
     if len(corners) == 0:
         return {"SmallestAngle": None, "MeanQuality": None}
     sides = np.roll(corners, -1, axis=1) - corners
     squares = (sides * sides).sum(axis=2)
     areas = np.linalg.norm(np.cross(sides[:, 0], sides[:, 1]), axis=1) / 2
-    cosines = (squares.sum(axis=1)[:, None] - 2 * squares) / 2  # times the other two sides
+    cosines = (squares.sum(axis=1)[:, None] - 2 * squares) / 2  # times the lengths of two sides
     angles = np.degrees(np.arctan2(2 * areas[:, None], cosines))
     return {"SmallestAngle": float(angles.min()),
             "MeanQuality": float((4 * np.sqrt(3) * areas / squares.sum(axis=1)).mean())}
 
 
 def check_properties(kind: str, properties: dict[str, Any]) -> None:
-    """TypeError where a filter of this class has no such property, or not of that type."""
+    """Raise TypeError if a filter class lacks a property or its type is wrong."""
     _set(getattr(filters, kind)(), properties)
 
 
@@ -261,11 +271,11 @@ def _set(algorithm: Any, properties: dict[str, Any]) -> None:
 
 def make_image(array: Any, spacing: Sequence[float], origin: Sequence[float], direction: Any,
                start: Sequence[int] = (0, 0, 0), name: str = "Voxels") -> Any:
-    """A vtkImageData of an array [z, y, x] or [z, y, x, component]; what is contiguous is not
-    copied."""
+    """Return a vtkImageData of [z, y, x] or [z, y, x, component], without a copy if contiguous."""
     voxels = np.asarray(array)
     if voxels.dtype.kind not in "biuf":
-        raise ValueError(f"voxels of type {voxels.dtype} are not numbers that VTK's images hold")
+        raise ValueError(f"voxels of type {voxels.dtype} are not supported; convert them to "
+                         "integers or floats")
     voxels = np.ascontiguousarray(voxels, voxels.dtype.newbyteorder("="))
     if voxels.dtype == bool:
         voxels = voxels.view(np.uint8)
@@ -278,19 +288,19 @@ def make_image(array: Any, spacing: Sequence[float], origin: Sequence[float], di
     image.SetOrigin([float(coordinate) for coordinate in origin])
     if direction is not None:
         image.SetDirectionMatrix(np.asarray(direction, float).ravel())
-    scalars = numpy_to_vtk(voxels.reshape(-1, *voxels.shape[3:]))  # It holds the array.
+    scalars = numpy_to_vtk(voxels.reshape(-1, *voxels.shape[3:]))  # keeps a reference to the array
     scalars.SetName(name)
     image.GetPointData().SetScalars(scalars)
     return image
 
 
 def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) -> Any:
-    """The image of an array and its position, or of a Volume."""
+    """Return the vtkImageData of an array and its position, or of a Volume."""
     given = {"spacing": spacing, "origin": origin, "direction": direction, "start": start}
     given = {name: value for name, value in given.items() if value is not None}
     if isinstance(array, Volume):
         if given:
-            raise TypeError(f"a Volume has {', '.join(given)} of its own")
+            raise TypeError(f"remove {', '.join(given)}: the Volume defines its own")
         volume = array
     elif np.ndim(array) != 3:
         raise ValueError(f"the array must have three axes, z, y and x, not {np.ndim(array)}")
@@ -305,7 +315,7 @@ def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) ->
 
 
 def _run(algorithm: Any) -> list[str]:
-    """Update an algorithm, which Ctrl-C stops, and return its warnings."""
+    """Update an algorithm and return its warnings. Ctrl-C aborts it."""
     errors, notes = messages.update(algorithm)
     if errors:
         raise FilterError(errors[0])

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 # PYTHON_ARGCOMPLETE_OK
-"""The command `volumic`: from a volume to a closed surface. See `volumic --help`."""
+"""The command `volumic`. See `volumic --help`."""
 
 from __future__ import annotations
 
@@ -12,44 +12,44 @@ from collections.abc import Sequence
 
 from . import messages, options as command_line
 from .errors import Failure, UsageError
-from .messages import Teller, one_line
+from .messages import Console, one_line
 from .option_tables import PROPERTIES, Filters
 
 DONE, FAILED, WRONG_USAGE = 0, 1, 2
 
 
-def main(words: Sequence[str] | None = None) -> int:
-    """Do what a command line requests (default: that of the process); return the exit code."""
-    words = sys.argv[1:] if words is None else words
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with `arguments` (default: those of the process). Return the exit code."""
+    arguments = sys.argv[1:] if arguments is None else arguments
     _complete()
     messages.catch_signals()
-    teller, code = Teller(), FAILED
+    console, code = Console(), FAILED
     try:
-        options = command_line.parse(words)
-        teller = Teller(options.quiet, options.progress)
-        code = _run(options, teller)
+        options = command_line.parse(arguments)
+        console = Console(options.quiet, options.progress)
+        code = _run(options, console)
         sys.stdout.flush()
         return code
     except UsageError as error:
-        teller.error(f"{one_line(str(error))}\nTry 'volumic --help'.")
+        console.error(f"{one_line(str(error))}\nTry 'volumic --help'.")
         return WRONG_USAGE
     except Failure as error:
-        teller.error("\nvolumic: ".join(one_line(line) for line in str(error).splitlines()))
+        console.error("\nvolumic: ".join(one_line(line) for line in str(error).splitlines()))
     except KeyboardInterrupt:
-        teller.error("interrupted before there was a surface; nothing is written")
+        console.error("interrupted before a surface was computed; no file was written")
     except MemoryError:
-        teller.error(f"{words[-1] if words else ''}: not enough memory; crop the volume, or "
-                     "resample it to fewer voxels")
+        console.error(f"{arguments[-1] if arguments else ''}: not enough memory; crop the volume "
+                      "or resample it to fewer voxels")
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
     except OSError as error:
         where = f"{error.filename}: " if error.filename else "the standard output: "
-        teller.error(one_line(f"{where}{error.strerror or error}"))
+        console.error(one_line(f"{where}{error.strerror or error}"))
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return FAILED
 
 
-def _run(options: Namespace, teller: Teller) -> int:
+def _run(options: Namespace, console: Console) -> int:
     _use_own_threads(options)
     if options.help or options.version or options.list_properties:
         filters = Filters()
@@ -68,23 +68,22 @@ def _run(options: Namespace, teller: Teller) -> int:
         print(*(reading.list_files(options.volume, options.choice) if options.list_files
                 else reading.list_series(options.volume)), sep="\n")
         return DONE
-    # These properties decide on the levels of the pyramid.
+    # vtkVolumeToSurface builds the pyramid that these properties require.
     filters = Filters(bool(options.triangles) or any(
         command_line.has_property(options, name) for name in ("EdgeLength", "UpperValue")))
     command_line.apply(options, filters)
     if options.labels:
         from .segment_labels import segment_labels
-        return segment_labels(options, filters, teller)
+        return segment_labels(options, filters, console)
     from .segment import segment_volume
-    return segment_volume(options, filters, teller)
+    return segment_volume(options, filters, console)
 
 
 def _use_own_threads(options: Namespace) -> None:
-    """The threads are Volumic's own: VTK's would come on top of --threads. What VTK prints for
-    objects that nobody observes goes nowhere."""
+    """Disable VTK's own threads, which would add to --threads, and VTK's log."""
     for item, text in options.properties:
         if item.name == "NumberOfThreads" and text.isdigit() and int(text) > 0:
-            os.environ["VTK_SMP_MAX_THREADS"] = text  # also for what has no such property
+            os.environ["VTK_SMP_MAX_THREADS"] = text  # for VTK filters without such a property
     from vtkmodules.vtkCommonCore import (
         vtkLogger, vtkOutputWindow, vtkSMPTools, vtkStringOutputWindow)
     vtkSMPTools.SetBackend("Sequential")
@@ -93,7 +92,7 @@ def _use_own_threads(options: Namespace) -> None:
 
 
 def _complete() -> None:
-    """Completion by the shell, where argcomplete is installed and asks for it."""
+    """Complete the command line for the shell if argcomplete requests it."""
     if "_ARGCOMPLETE" in os.environ:
         import argcomplete
         argcomplete.autocomplete(command_line.make_parser())

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A closed surface that is cut at planes, so that tetrahedra in it have no small angles there:
-vertices near a plane are moved onto it before the cut, and short edges at it are collapsed."""
+"""Cut a closed surface at planes with well-shaped triangles, for tetrahedral meshing: move vertices
+near a plane onto it before the cut, then collapse short edges."""
 
 from __future__ import annotations
 
@@ -9,46 +9,48 @@ from typing import NamedTuple
 
 import numpy as np
 
-SNAP = 0.35  # in edge lengths: vertices that are nearer to a plane are moved onto it
-SHORT = 0.6   # in edge lengths: shorter edges at a cap are collapsed
-LONG = 1.5    # in edge lengths: longer edges between two caps are divided
-TURNED = 0.7  # least cosine between normals before and after
-ROUNDS = 12
+# In edge lengths:
+SNAP_DISTANCE = 0.35  # closer vertices are moved onto the plane
+MINIMUM_LENGTH = 0.6  # shorter edges at a cap are collapsed
+MAXIMUM_LENGTH = 1.5  # longer edges between two caps are split
+
+MINIMUM_COSINE = 0.7  # between normals before and after a collapse
+MAXIMUM_ROUNDS = 12
 
 
 class NotFlat(Exception):
-    """The surface cannot be closed at these planes."""
+    """The surface cannot be closed by planar caps."""
 
 
 class Plane(NamedTuple):
-    """A plane across an axis of the image."""
-    face: int         # as the cell array BoxFace: 1 to 6
+    """A plane perpendicular to an axis of the image."""
+    face: int         # 1 to 6, as in the cell array BoxFace
     axis: int
-    sign: int         # of the normal, which points out of the image
+    sign: int         # of the outward normal
     position: float   # along the axis
 
     def distances(self, points: np.ndarray) -> np.ndarray:
-        """Positive outside."""
+        """Return signed distances, positive outside."""
         return self.sign * (points[:, self.axis] - self.position)
 
-    def holds(self, points: np.ndarray) -> np.ndarray:
-        """Whether points lie in it exactly."""
+    def contains(self, points: np.ndarray) -> np.ndarray:
+        """Return whether points lie exactly in the plane."""
         return points[:, self.axis] == self.position
 
 
 def normals_of(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Normals twice as long as the areas."""
+    """Return normals whose length is twice the area."""
     a, b, c = np.moveaxis(points[triangles], 1, 0)
     return np.cross(b - a, c - a)
 
 
 def edges_of(triangles: np.ndarray) -> np.ndarray:
-    """Directed edges; 3 t + i is edge i of triangle t."""
+    """Return directed edges; edge i of triangle t has index 3 t + i."""
     return np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1).reshape(-1, 2)
 
 
 def unmatched(edges: np.ndarray) -> np.ndarray:
-    """Which directed edges lack the opposite one. Throw NotFlat if an edge is there twice."""
+    """Return which directed edges lack the opposite edge. Raise NotFlat if an edge occurs twice."""
     size = edges.max(initial=0) + 1
     keys = edges @ (size, 1)
     if len(np.unique(keys)) < len(keys):
@@ -56,81 +58,80 @@ def unmatched(edges: np.ndarray) -> np.ndarray:
     return ~np.isin(keys, edges @ (1, size))
 
 
-def _differ(old: np.ndarray, new: np.ndarray, least: float) -> np.ndarray:
-    """Whether vectors turn by an angle of a smaller cosine."""
+def _turns_more(old: np.ndarray, new: np.ndarray, minimum: float) -> np.ndarray:
+    """Return whether the cosine of the angle between vectors is less than `minimum`."""
     lengths = np.linalg.norm(old, axis=1) * np.linalg.norm(new, axis=1)
-    return (old * new).sum(1) < least * lengths
+    return (old * new).sum(1) < minimum * lengths
 
 
 class Cutter:
-    """The surface. Positions are along the axes of the image. Caps are stored as `rims`: the
-    directed edges that bound them, counterclockwise seen from outside."""
+    """A surface to cut, in coordinates along the axes of the image. `loops` holds the directed
+    boundary edges of the caps, counter-clockwise seen from outside."""
 
     def __init__(self, points: np.ndarray, data: np.ndarray, triangles: np.ndarray) -> None:
         self.points, self.data, self.triangles = points.copy(), data, triangles
         self.source = np.arange(len(triangles))
-        self.rims, self.faces = np.zeros((0, 2), int), np.zeros(0, int)
+        self.loops, self.faces = np.zeros((0, 2), int), np.zeros(0, int)
         self.planes: list[Plane] = []
         edges = edges_of(triangles)
         lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
         self.length = float(lengths.mean())
         count = np.bincount(edges[:, 0], minlength=len(points))
-        # The mean length of edges at each point.
+        # Mean edge length at each point.
         self.sizes = np.bincount(edges[:, 0], lengths, len(points)) / np.maximum(count, 1)
 
-    def add_points(self, one: np.ndarray, other: np.ndarray, share: np.ndarray) -> None:
-        """Add points between others, with what they have."""
+    def add_points(self, one: np.ndarray, other: np.ndarray, fraction: np.ndarray) -> None:
+        """Add points with interpolated data between pairs of points."""
         for name in ("points", "data", "sizes"):
             values = getattr(self, name)
-            weight = share[:, None] if values.ndim == 2 else share
+            weight = fraction[:, None] if values.ndim == 2 else fraction
             added = values[one] + weight * (values[other] - values[one])
             setattr(self, name, np.concatenate([values, added]))
 
-    def add_rims(self, edges: np.ndarray, faces: np.ndarray) -> None:
-        """Add edges that bound caps."""
-        self.rims = np.concatenate([self.rims, edges])
+    def add_loops(self, edges: np.ndarray, faces: np.ndarray) -> None:
+        self.loops = np.concatenate([self.loops, edges])
         self.faces = np.concatenate([self.faces, np.broadcast_to(faces, len(edges))])
 
     # ---- Cuts ----
 
     def snap(self, plane: Plane) -> None:
-        """Move vertices near the plane onto it: along the surface where that is steep, otherwise
-        straight. What turns triangles over stays."""
+        """Move vertices near a plane onto it, along the surface where it is steep, else
+        perpendicular to the plane. Vertices that would flip triangles are not moved."""
         distances = plane.distances(self.points)
-        near = np.flatnonzero((np.abs(distances) < SNAP * self.sizes) & (distances != 0))
+        near = np.flatnonzero((np.abs(distances) < SNAP_DISTANCE * self.sizes) & (distances != 0))
         old = normals_of(self.points, self.triangles)
         normals = np.zeros_like(self.points)
         np.add.at(normals, self.triangles, old[:, None])
         normals = normals[near] / np.maximum(np.linalg.norm(normals[near], axis=1), 1e-300)[:, None]
         across = normals[:, plane.axis] * plane.sign
         before = self.points[near]
-        share = distances[near] * across / np.maximum(1 - across ** 2, 0.5)
-        after = before + share[:, None] * normals
+        fraction = distances[near] * across / np.maximum(1 - across ** 2, 0.5)
+        after = before + fraction[:, None] * normals
         for other in self.planes:
-            after[other.holds(before), other.axis] = other.position
+            after[other.contains(before), other.axis] = other.position
         after[:, plane.axis] = plane.position
         moved = np.zeros(len(self.points), bool)
         moved[near] = True
-        for _ in range(ROUNDS):
+        for _ in range(MAXIMUM_ROUNDS):
             self.points[near] = np.where(moved[near, None], after, before)
-            flat = plane.holds(self.points)[self.triangles].all(axis=1)
-            turned = _differ(old, normals_of(self.points, self.triangles), 0.3) & ~flat
+            flat = plane.contains(self.points)[self.triangles].all(axis=1)
+            turned = _turns_more(old, normals_of(self.points, self.triangles), 0.3) & ~flat
             if not moved[self.triangles[turned]].any():
                 return
             moved[self.triangles[turned]] = False
         self.points[near] = np.where(moved[near, None], after, before)
 
     def cut(self, plane: Plane) -> None:
-        """Remove what lies beyond the plane."""
+        """Remove the part of the surface beyond a plane."""
         distances = plane.distances(self.points)
 
-        def sorted_out(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-            least, most = distances[cells].min(1), distances[cells].max(1)
-            return (least < 0) & (most <= 0), (least < 0) & (most > 0)
+        def classify(cells: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            minimum, maximum = distances[cells].min(1), distances[cells].max(1)
+            return (minimum < 0) & (maximum <= 0), (minimum < 0) & (maximum > 0)
 
-        kept, split = sorted_out(self.triangles)
-        kept_rims, split_rims = sorted_out(self.rims) if len(self.rims) else (self.faces > 0,) * 2
-        edges = np.concatenate([edges_of(self.triangles[split]), self.rims[split_rims]])
+        kept, split = classify(self.triangles)
+        kept_loops, split_loops = classify(self.loops) if len(self.loops) else (self.faces > 0,) * 2
+        edges = np.concatenate([edges_of(self.triangles[split]), self.loops[split_loops]])
         crossing = distances[edges].prod(axis=1) < 0
         pairs, numbers = np.unique(np.sort(edges[crossing], axis=1), axis=0, return_inverse=True)
         added = np.full(len(edges), -1)
@@ -143,65 +144,65 @@ class Cutter:
                                      added[:count].reshape(-1, 3))
         self.triangles = np.concatenate([self.triangles[kept], pieces])
         self.source = np.concatenate([self.source[kept], self.source[split][owner]])
-        halves = np.where(distances[self.rims[split_rims]] < 0, self.rims[split_rims],
+        halves = np.where(distances[self.loops[split_loops]] < 0, self.loops[split_loops],
                           added[count:, None])
-        faces = self.faces[split_rims]
-        self.rims, self.faces = self.rims[kept_rims], self.faces[kept_rims]
-        self.add_rims(halves, faces)
+        faces = self.faces[split_loops]
+        self.loops, self.faces = self.loops[kept_loops], self.faces[kept_loops]
+        self.add_loops(halves, faces)
         for cap in self.planes:
             if cap.axis != plane.axis:
                 self._close(cap, plane)
-        edges = np.concatenate([edges_of(self.triangles), self.rims])
-        rims = edges[unmatched(edges)][:, ::-1]
-        if not plane.holds(self.points)[rims].all():
+        edges = np.concatenate([edges_of(self.triangles), self.loops])
+        loops = edges[unmatched(edges)][:, ::-1]
+        if not plane.contains(self.points)[loops].all():
             raise NotFlat
-        self.add_rims(rims, plane.face)
+        self.add_loops(loops, plane.face)
         self.planes.append(plane)
 
     def _pieces(self, triangles: np.ndarray, distances: np.ndarray, added: np.ndarray
                 ) -> tuple[np.ndarray, np.ndarray]:
-        """The parts of triangles within the plane, and of which triangle each is."""
+        """Return the parts of triangles inside the plane, and the index of the triangle of each."""
         corners = np.stack([triangles, added], axis=-1).reshape(-1, 6)
         there = np.stack([distances[triangles] <= 0, added >= 0], axis=-1).reshape(-1, 6)
         order = np.argsort(~there, axis=1, kind="stable")[:, :4]
         corners = np.take_along_axis(corners, order, axis=1)
         quads = np.flatnonzero(there.sum(1) == 4)
         single = np.flatnonzero(there.sum(1) == 3)
-        ways = self.points[corners[quads]]
-        turn = (np.linalg.norm(ways[:, 0] - ways[:, 2], axis=1)
-                > np.linalg.norm(ways[:, 1] - ways[:, 3], axis=1))
-        # Along the shorter diagonal.
+        corner_points = self.points[corners[quads]]
+        turn = (np.linalg.norm(corner_points[:, 0] - corner_points[:, 2], axis=1)
+                > np.linalg.norm(corner_points[:, 1] - corner_points[:, 3], axis=1))
+        # Split quads along the shorter diagonal.
         of_quads = np.where(turn[:, None], np.roll(corners[quads], -1, axis=1), corners[quads])
         return (np.concatenate([corners[single, :3], of_quads[:, :3], of_quads[:, [0, 2, 3]]]),
                 np.concatenate([single, quads, quads]))
 
     def _close(self, cap: Plane, plane: Plane) -> None:
-        """Close the boundary of a cap that the plane has cut by edges that lie in both planes."""
-        rims, size = self.rims[self.faces == cap.face], len(self.points)
-        excess = np.bincount(rims[:, 0], minlength=size) - np.bincount(rims[:, 1], minlength=size)
-        # Seen from outside with the cap to the left.
-        way = np.cross(cap.sign * np.eye(3)[cap.axis], plane.sign * np.eye(3)[plane.axis])
-        heights = self.points @ way
+        """Close the boundary of a cap that a plane has cut, by edges in both planes."""
+        loops, size = self.loops[self.faces == cap.face], len(self.points)
+        excess = np.bincount(loops[:, 0], minlength=size) - np.bincount(loops[:, 1], minlength=size)
+        # Direction with the cap on the left, seen from outside.
+        direction = np.cross(cap.sign * np.eye(3)[cap.axis], plane.sign * np.eye(3)[plane.axis])
+        heights = self.points @ direction
         ends = np.flatnonzero(excess)
         ends = ends[np.argsort(heights[ends])]
-        both = cap.holds(self.points) & plane.holds(self.points)
+        both = cap.contains(self.points) & plane.contains(self.points)
         if not both[ends].all() or (excess[ends] != np.resize([-1, 1], len(ends))).any():
             raise NotFlat
         used = np.zeros(size, bool)
         used[self.triangles] = True
-        used[self.rims] = True
+        used[self.loops] = True
         line = np.flatnonzero(both & used)
         line = line[np.argsort(heights[line])]
-        # Intervals from an end that lacks an edge out of it to the next one.
+        # Intervals from a vertex that lacks an outgoing edge to the next one.
         depth = np.cumsum(-excess[line])
         inner = np.flatnonzero(depth > 0)
-        self.add_rims(np.stack([line[inner], line[np.minimum(inner + 1, len(line) - 1)]], 1),
-                      cap.face)
+        self.add_loops(np.stack([line[inner], line[np.minimum(inner + 1, len(line) - 1)]], 1),
+                       cap.face)
 
     # ---- Triangles at the caps ----
 
     def split(self, pairs: np.ndarray) -> None:
-        """Split edges, of which no two are in one triangle, at their midpoints."""
+        """Split edges at their midpoints. No triangle may have two of them."""
         size = len(self.points)
         pairs = np.unique(np.sort(pairs, axis=1), axis=0)
         self.add_points(*pairs.T, np.full(len(pairs), 0.5))
@@ -220,41 +221,41 @@ class Cutter:
         self.triangles[owner, (corner + 1) % 3] = middle
         self.triangles = np.concatenate([self.triangles, added])
         self.source = np.concatenate([self.source, self.source[owner]])
-        which, middle = found(self.rims)
-        halves = np.stack([middle, self.rims[which, 1]], axis=1)
-        self.rims[which, 1] = middle
-        self.add_rims(halves, self.faces[which])
+        which, middle = found(self.loops)
+        halves = np.stack([middle, self.loops[which, 1]], axis=1)
+        self.loops[which, 1] = middle
+        self.add_loops(halves, self.faces[which])
 
     def refine(self) -> None:
-        """Split edges in a plane that are in no rim, and move what touches the plane without being
-        in a rim inward: a cap may lie there. Divide long edges between two caps."""
+        """Split edges in a plane that are not boundary edges, move vertices in a plane that are not
+        boundary vertices inward, and split long edges between two caps."""
         for plane in self.planes:
             edges, size = edges_of(self.triangles), len(self.points)
-            rims = np.isin(edges @ (size, 1), self.rims @ (1, size))
-            chords = edges[plane.holds(self.points)[edges].all(axis=1) & ~rims]
+            loops = np.isin(edges @ (size, 1), self.loops @ (1, size))
+            chords = edges[plane.contains(self.points)[edges].all(axis=1) & ~loops]
             if len(chords):
                 self.split(chords)
             touching = np.zeros(len(self.points), bool)
             touching[self.triangles] = True
-            touching[self.rims[self.faces == plane.face]] = False
-            touching &= plane.holds(self.points)
-            self.points[touching, plane.axis] -= plane.sign * SNAP * self.sizes[touching]
+            touching[self.loops[self.faces == plane.face]] = False
+            touching &= plane.contains(self.points)
+            self.points[touching, plane.axis] -= plane.sign * SNAP_DISTANCE * self.sizes[touching]
         while True:
-            size, ends = len(self.points), self.points[self.rims]
-            chosen = np.isin(self.rims @ (size, 1), self.rims @ (1, size))
-            chosen &= np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > LONG * self.length
+            size, ends = len(self.points), self.points[self.loops]
+            chosen = np.isin(self.loops @ (size, 1), self.loops @ (1, size))
+            chosen &= np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > MAXIMUM_LENGTH * self.length
             if not chosen.any():
                 return
-            self.split(self.rims[chosen])
+            self.split(self.loops[chosen])
 
     def collapse(self) -> None:
-        """Collapse short edges at the rims where the surface keeps its shape."""
+        """Collapse short edges at the boundaries of caps where the shape is preserved."""
         from scipy.sparse import coo_matrix
-        refused, size = np.zeros(0, int), len(self.points)
-        for _ in range(ROUNDS):
-            flags = np.zeros(size, int)  # the planes of each vertex at a rim
+        rejected, size = np.zeros(0, int), len(self.points)
+        for _ in range(MAXIMUM_ROUNDS):
+            flags = np.zeros(size, int)  # bit set of the planes of each boundary vertex
             for plane in self.planes:
-                own = self.rims[self.faces == plane.face]
+                own = self.loops[self.faces == plane.face]
                 flags[own] |= 1 << plane.face
             near = flags > 0
             for _ in range(2):
@@ -266,10 +267,10 @@ class Cutter:
             lengths = np.linalg.norm(self.points[edges[:, 0]] - self.points[edges[:, 1]], axis=1)
             one, other = flags[edges].T
             both = one & other
-            # The vertex that has the planes of both stays. Two of a rim have an edge of it.
-            short = ((lengths < SHORT * self.sizes[edges].mean(axis=1)) & (one + other > 0)
+            # The vertex in the planes of both is kept. Two boundary vertices need a boundary edge.
+            short = ((lengths < MINIMUM_LENGTH * self.sizes[edges].mean(axis=1)) & (one + other > 0)
                      & ((both == one) | (both == other)) & ((count == 1) | (one * other == 0))
-                     & ~np.isin(edges @ (size, 1), refused))
+                     & ~np.isin(edges @ (size, 1), rejected))
             graph = coo_matrix((np.ones(len(edges)), tuple(edges.T)), (size, size)).tocsr()
             graph = graph + graph.T
             found = np.flatnonzero(short)
@@ -280,54 +281,57 @@ class Cutter:
             found = found[np.argsort(lengths[found], kind="stable")]
             ends = edges[found[_apart(edges[found], edges, size)]]
             ends = np.where((np.diff(flags[ends], axis=1) < 0), ends[:, ::-1], ends)
-            refused = np.append(refused, np.sort(ends[self._merge(*ends.T, triangles, flags)],
-                                                 axis=1) @ (size, 1))
+            rejected = np.append(rejected, np.sort(ends[self._merge(*ends.T, triangles, flags)],
+                                                   axis=1) @ (size, 1))
 
-    def _merge(self, goes: np.ndarray, kept: np.ndarray, triangles: np.ndarray, flags: np.ndarray
+    def _merge(self, removed: np.ndarray, kept: np.ndarray, triangles: np.ndarray, flags: np.ndarray
                ) -> np.ndarray:
-        """Merge vertices, but not where that turns or flattens triangles: return where."""
-        equal = (flags[goes] == flags[kept])[:, None]
-        places = np.where(equal, (self.points[goes] + self.points[kept]) / 2, self.points[kept])
+        """Merge vertices into `kept` unless triangles flip or degenerate; return which are
+        rejected."""
+        equal = (flags[removed] == flags[kept])[:, None]
+        positions = np.where(equal, (self.points[removed] + self.points[kept]) / 2,
+                             self.points[kept])
         owner, to, points = np.full(len(flags), -1), np.arange(len(flags)), self.points.copy()
-        owner[goes] = owner[kept] = np.arange(len(goes))
-        to[goes], points[kept] = kept, places
+        owner[removed] = owner[kept] = np.arange(len(removed))
+        to[removed], points[kept] = kept, positions
         whose = owner[triangles].max(axis=1)
         changed, whose = triangles[whose >= 0], whose[whose >= 0]
         after = to[changed]
-        turned = _differ(normals_of(self.points, changed), normals_of(points, after), TURNED)
-        least = np.full(len(goes), 15.0)
-        np.minimum.at(least, whose, _least_angles(self.points, changed))
-        worse = turned | (_least_angles(points, after) < least[whose])
-        refused = np.zeros(len(goes), bool)
-        refused[whose[worse & (after != np.roll(after, 1, axis=1)).all(axis=1)]] = True
-        to[goes[refused]] = goes[refused]
-        self.points[kept[~refused]] = places[~refused]
-        self.triangles, self.rims = to[self.triangles], to[self.rims]
+        turned = _turns_more(normals_of(self.points, changed), normals_of(points, after),
+                             MINIMUM_COSINE)
+        minimum = np.full(len(removed), 15.0)
+        np.minimum.at(minimum, whose, _minimum_angles(self.points, changed))
+        worse = turned | (_minimum_angles(points, after) < minimum[whose])
+        rejected = np.zeros(len(removed), bool)
+        rejected[whose[worse & (after != np.roll(after, 1, axis=1)).all(axis=1)]] = True
+        to[removed[rejected]] = removed[rejected]
+        self.points[kept[~rejected]] = positions[~rejected]
+        self.triangles, self.loops = to[self.triangles], to[self.loops]
         there = (self.triangles != np.roll(self.triangles, 1, axis=1)).all(axis=1)
         self.triangles, self.source = self.triangles[there], self.source[there]
-        # Triangles in a plane become part of its caps. A cap as narrow as an edge vanishes.
+        # Triangles in a plane become part of its caps. Caps without area vanish.
         for plane in self.planes:
-            flat = plane.holds(self.points)[self.triangles].all(axis=1)
-            self.add_rims(edges_of(self.triangles[flat]), plane.face)
+            flat = plane.contains(self.points)[self.triangles].all(axis=1)
+            self.add_loops(edges_of(self.triangles[flat]), plane.face)
             self.triangles, self.source = self.triangles[~flat], self.source[~flat]
-        keys, back = (self.rims @ way * 8 + self.faces for way in ((len(to), 1), (1, len(to))))
+        keys, back = (self.loops @ key * 8 + self.faces for key in ((len(to), 1), (1, len(to))))
         there = (keys != back) & ~np.isin(keys, back)
-        self.rims, self.faces = self.rims[there], self.faces[there]
-        return refused
+        self.loops, self.faces = self.loops[there], self.faces[there]
+        return rejected
 
 
-def _least_angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """The least angle of each triangle, degrees."""
-    corners, least = points[triangles], np.full(len(triangles), np.inf)
+def _minimum_angles(points: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Return the minimum angle of each triangle in degrees."""
+    corners, minimum = points[triangles], np.full(len(triangles), np.inf)
     for i in range(3):
         a, b = corners[:, i - 1] - corners[:, i], corners[:, i - 2] - corners[:, i]
         across = np.linalg.norm(np.cross(a, b), axis=1)
-        least = np.minimum(least, np.arctan2(across, (a * b).sum(1)))
-    return np.degrees(least)
+        minimum = np.minimum(minimum, np.arctan2(across, (a * b).sum(1)))
+    return np.degrees(minimum)
 
 
 def _apart(chosen: np.ndarray, edges: np.ndarray, size: int) -> np.ndarray:
-    """Which edges of a list have none before them within two rings."""
+    """Return which of the chosen edges have no earlier one within two rings."""
     rank = np.full(size, len(chosen))
     for end in chosen.T:
         np.minimum.at(rank, end, np.arange(len(chosen)))

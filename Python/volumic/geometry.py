@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The volume of the command line as an image of VTK: its space and unit, the region that is used,
-resampling, and the values of other volumes at points (--probe)."""
+"""The volume of the command as vtkImageData: coordinate system, unit, cropping, resampling, and
+sampling of other volumes (--probe)."""
 
 from __future__ import annotations
 
@@ -19,20 +19,21 @@ from vtkmodules.vtkCommonCore import vtkStringArray
 from . import reading
 from .arrays import make_image
 from .errors import Failure, VolumeError
-from .messages import Teller, number_text
+from .messages import Console, number_text
 from .option_tables import Filters
-from .options import has_property, wants_surface
+from .options import has_property, needs_surface
 from .reading.volume import METERS, Volume
 from .vtkFiltersVolumic import vtkVolumeToSurface
 from .writing.meshers import DistinctNames
+from .writing.regions import points_of
 
-LEAST_VOXELS = 8    # along an axis, for a pyramid to have a level
-MOST_VOXELS = 1e11  # of a resampled image: more is a mistake
+MINIMUM_SIZE = 8       # voxels along an axis, required by a pyramid level
+MAXIMUM_VOXELS = 1e11  # of a resampled image
 
 # ---- Field data --------------------------------------------------------------------------------
 
-def set_fact(data: Any, name: str, text: str) -> None:
-    """Set a text of the field data; an empty one removes it."""
+def set_field_text(data: Any, name: str, text: str) -> None:
+    """Set a string of the field data. An empty text removes it."""
     data.GetFieldData().RemoveArray(name)
     if text:
         array = vtkStringArray()
@@ -41,36 +42,35 @@ def set_fact(data: Any, name: str, text: str) -> None:
         data.GetFieldData().AddArray(array)
 
 
-def fact(data: Any, name: str) -> str:
-    """A text of the field data; empty if there is none."""
+def field_text(data: Any, name: str) -> str:
+    """Return a string of the field data; empty if there is none."""
     array = data.GetFieldData().GetAbstractArray(name)
     return array.GetValue(0) if array and array.GetNumberOfValues() > 0 else ""
 
 
 def mark_space(data: Any, world: World) -> None:
-    """Set the field data `SPACE`, as 3D Slicer reads it, and `LengthUnit` of a surface or of all
-    blocks."""
+    """Set the field data `SPACE`, read by 3D Slicer, and `LengthUnit` of a surface or blocks."""
     if data.IsA("vtkMultiBlockDataSet"):
         for block in filter(None, map(data.GetBlock, range(data.GetNumberOfBlocks()))):
             mark_space(block, world)
         return
-    set_fact(data, "SPACE", world.space)
-    set_fact(data, "LengthUnit", world.unit)
+    set_field_text(data, "SPACE", world.space)
+    set_field_text(data, "LengthUnit", world.unit)
 
 
 # ---- Space and unit ----------------------------------------------------------------------------
 
 @dataclasses.dataclass
 class World:
-    """Axes and unit of the world coordinates, and what the file has."""
+    """Coordinate system and unit of the outputs and of the file."""
     space: str = ""
     unit: str = ""
-    scale: float = 1.0  # by which lengths of the file were multiplied
+    scale: float = 1.0  # factor applied to lengths of the file
     file_space: str = ""
     file_unit: str = ""
 
     def text(self) -> str:
-        """"; space RAS, unit mm (of the file: um)", or nothing where nothing is known."""
+        """Return text such as "; space RAS, unit mm (of the file: um)"; empty if all is unknown."""
         parts = [(f"{what} {now}" if now else "")
                  + (f" (of the file: {file})" if file not in ("", now) else "")
                  for what, now, file in (("space", self.space, self.file_space),
@@ -86,32 +86,32 @@ def _axes(space: str) -> np.ndarray:
     return np.array([np.eye(3)[i // 2] * (1 - i % 2 * 2) for i in map("LRPASI".index, space)])
 
 
-def place_in_world(volume: Volume, options: Namespace) -> World:
-    """Put a volume into the space and unit of the options, in place. Throw Failure if the file does
-    not state what is needed for that."""
+def convert_to_world(volume: Volume, options: Namespace) -> World:
+    """Transform a volume in place to the coordinate system and unit of the options. Raise Failure
+    if the file does not state its own."""
     if options.unit and not volume.unit:
-        raise Failure(f"--unit {options.unit}: the file does not state its unit; give the factor "
-                      "by --scale, such as --scale 0.001 from millimetres to metres")
-    turns = options.space not in (None, "as-file")
-    if turns and not volume.space:
-        raise Failure(f"--space {options.space}: the file does not state which sides of the body "
-                      "its axes point to")
+        raise Failure(f"--unit {options.unit}: the file does not state its unit; use --scale "
+                      "instead, such as --scale 0.001 from millimetres to metres")
+    converts_axes = options.space not in (None, "as-file")
+    if converts_axes and not volume.space:
+        raise Failure(f"--space {options.space}: the file does not state its coordinate system; "
+                      "remove --space")
     scale = _factor(volume.unit, options.unit) if options.unit else options.scale or 1.0
-    world = World(options.space if turns else volume.space, next((
+    world = World(options.space if converts_axes else volume.space, next((
         name for name in METERS if volume.unit and _factor(volume.unit, name) == scale), ""),
                   scale, volume.space, volume.unit)
     volume.spacing = tuple(length * scale for length in volume.spacing)
     volume.origin = tuple(length * scale for length in volume.origin)
-    if turns:
-        turn = _axes(world.space) @ _axes(volume.space).T
-        volume.direction = turn @ volume.direction + 0.0  # no -0
-        volume.origin = tuple((turn @ volume.origin + 0.0).tolist())
+    if converts_axes:
+        rotation = _axes(world.space) @ _axes(volume.space).T
+        volume.direction = rotation @ volume.direction + 0.0  # no -0
+        volume.origin = tuple((rotation @ volume.origin + 0.0).tolist())
     volume.space, volume.unit = world.space, world.unit
     return world
 
 
 def _factor(one: str, other: str) -> float:
-    """Return how many of a unit another one is: a power of ten, exactly."""
+    """Return the exact ratio of two units, a power of ten."""
     return float(f"1e{round(math.log10(METERS[one] / METERS[other]))}")
 
 
@@ -119,79 +119,75 @@ def _factor(one: str, other: str) -> float:
 
 @dataclasses.dataclass
 class LoadedVolume:
-    """The volume of the command line."""
-    image: Any            # vtkImageData of one component, with facts and names as field data
-    volume: Volume        # with all its components
+    image: Any            # vtkImageData with field data; one component unless labels
+    volume: Volume        # all components
     world: World
-    component: int | None  # of several that was chosen; -1: the magnitude
+    component: int | None  # selected one of several; -1: magnitude
     range: tuple[float, float]
-    text: str             # sizes, spacing and type
+    text: str             # dimensions, spacing and type
 
 
 def image_of(volume: Volume, array: np.ndarray) -> Any:
-    """A vtkImageData of an array [z, y, x] or [component, z, y, x] where the volume is."""
+    """Return a vtkImageData of an array [z, y, x] or [component, z, y, x], located as `volume`."""
     image = make_image(array if array.ndim == 3 else np.moveaxis(array, 0, -1), volume.spacing,
                        volume.origin, volume.direction, volume.start, volume.name or "Voxels")
     for name, text in (("Axes", volume.space), ("LengthUnit", volume.unit),
                        ("Resampling", volume.resampling)):
-        set_fact(image, name, text)
+        set_field_text(image, name, text)
     return image
 
 
-def read(path: str, teller: Teller, **choice: Any) -> Volume:
-    """Read a volume and print its warnings."""
-    choice["tell"] = lambda text: teller.warn(f"{path}: {text}")
+def read(path: str, console: Console, **choice: Any) -> Volume:
     volume = reading.read(path, **choice)
     for text in volume.warnings:
-        choice["tell"](text)
+        console.warn(f"{path}: {text}")
     return volume
 
 
-def load_volume(options: Namespace, filters: Filters, teller: Teller,
+def load_volume(options: Namespace, filters: Filters, console: Console,
                 announce: bool = True) -> LoadedVolume:
-    """Read the volume, put it into its position, crop and resample it as the options request, and
-    print what it is."""
+    """Read the volume, transform, crop and resample it as requested, and print its properties."""
     path = options.volume
     component = (filters.surface.GetSelectedComponent()
                  if has_property(options, "SelectedComponent") else None)
-    volume = read(path, teller, **vars(options.choice))
+    volume = read(path, console, **vars(options.choice))
     try:
-        world = place_in_world(volume, options)
+        world = convert_to_world(volume, options)
         crop(volume, options)
-        is_whole = options.labels or (component is None and not wants_surface(options))
+        is_whole = options.labels or (component is None and not needs_surface(options))
         part = dataclasses.replace(
             volume, array=volume.array if is_whole else volume.scalars(component))
-        resample(part, options, teller)
+        resample(part, options, console)
         image = image_of(part, part.array)
     except Failure as error:
         raise VolumeError(f"{path}: {error}") from None
     count = 1 if volume.array.ndim == 3 else len(volume.array)
-    taken = None if count == 1 else -1 if component is None else component
+    selected = None if count == 1 else -1 if component is None else component
     scalars = image.GetPointData().GetScalars()
-    least, most = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
+    minimum, maximum = scalars.GetRange(0 if scalars.GetNumberOfComponents() == 1 else -1)
     text = f"{describe(part)}, {image.GetScalarTypeAsString()}"
     if announce:
-        what = "magnitude" if taken == -1 else f"component {taken}"
-        teller.say(f"{path}: {text}" + (f", {what} of {count} components (--component)"
-                                        if count > 1 else "")
-                   + f", {number_text(least)} to {number_text(most)}{world.text()}")
-    return LoadedVolume(image, volume, world, taken, (least, most), text)
+        what = "magnitude" if selected == -1 else f"component {selected}"
+        console.info(f"{path}: {text}" + (f", {what} of {count} components (--component)"
+                                          if count > 1 else "")
+                     + f", {number_text(minimum)} to {number_text(maximum)}{world.text()}")
+    return LoadedVolume(image, volume, world, selected, (minimum, maximum), text)
 
 
 def describe(volume: Volume) -> str:
-    """"64 x 64 x 32 voxels of 0.5 x 0.5 x 1"."""
+    """Return a text such as "64 x 64 x 32 voxels of 0.5 x 0.5 x 1"."""
     return (" x ".join(map(str, volume.array.shape[:-4:-1])) + " voxels of "
             + " x ".join(number_text(round(length, 6)) for length in volume.spacing))
 
 
 def crop(volume: Volume, options: Namespace) -> None:
-    """Leave the voxels of --region or --region-box only, in place: no voxel is copied."""
+    """Crop a volume in place to --region or --region-box, without a copy of its voxels."""
     sizes, start = np.array(volume.array.shape[:-4:-1]), np.array(volume.start)
     if options.region:
         limits = np.reshape(options.region, (3, 2)).T
     elif options.region_box:
         corners = np.stack(np.meshgrid(*np.reshape(options.region_box, (3, 2))), -1).reshape(-1, 3)
-        # The origin is the position of index 0, whatever the index of the first voxel.
+        # The origin is the position of index 0, also if the extent starts elsewhere.
         indices = (corners - volume.origin) @ volume.direction / volume.spacing
         limits = np.clip([np.floor(indices.min(0) + 1e-6), np.ceil(indices.max(0) - 1e-6)],
                          -1e9, 1e9).astype(int)
@@ -199,31 +195,32 @@ def crop(volume: Volume, options: Namespace) -> None:
         return
     first, last = np.maximum(limits[0], start), np.minimum(limits[1], start + sizes - 1)
     for axis in np.flatnonzero(first > last):
-        raise VolumeError(f"the region lies beside the volume, which has voxels {'ijk'[axis]} "
-                          f"{start[axis]} to {start[axis] + sizes[axis] - 1}")
+        raise VolumeError(f"the region is outside the volume, whose index {'ijk'[axis]} ranges "
+                          f"from {start[axis]} to {start[axis] + sizes[axis] - 1}")
     x, y, z = map(slice, (first - start).tolist(), (last - start + 1).tolist())
     volume.array, volume.start = volume.array[..., z, y, x], tuple(first.tolist())
 
 
-def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
-    """Resample to --resample or --isotropic, or, for a surface, to 8 voxels along thin axes. The
-    box of the voxels remains. Values are linear, labels are those of the nearest voxel."""
+def resample(volume: Volume, options: Namespace, console: Console) -> None:
+    """Resample a volume in place to --resample, --isotropic or, for a surface, at least 8 voxels
+    along each axis, linearly or, for labels, by nearest neighbour. Its bounds do not change."""
     from vtkmodules.vtkImagingCore import vtkImageReslice
     before, sizes = np.array(volume.spacing), np.array(volume.array.shape[:-4:-1])
     after = np.array(options.resample or before, float)
     if options.isotropic:
         after[:] = before.min()
-    if not (options.resample or options.labels or options.edges) and wants_surface(options) \
+    if not (options.resample or options.labels or options.edges) and needs_surface(options) \
             and options.choice.resampling:
-        thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / after)) < LEAST_VOXELS)
-        after[thin] = (sizes * before / LEAST_VOXELS)[thin]
+        thin = (sizes > 1) & (np.maximum(sizes, np.rint(sizes * before / after)) < MINIMUM_SIZE)
+        after[thin] = (sizes * before / MINIMUM_SIZE)[thin]
     if (after == before).all():
         return
     count = np.prod(np.maximum(1.0, sizes * before / after))
-    if not count < MOST_VOXELS:
-        raise VolumeError(f"resampled it would have {count:.0f} voxels")
-    text = f"resampled from {describe(volume)}" + ": a surface needs 8 voxels along each axis" * (
-        not options.resample and not options.isotropic)
+    if not count < MAXIMUM_VOXELS:
+        raise VolumeError(f"resampling yields {count:.0f} voxels; increase the voxel spacing")
+    text = f"resampled from {describe(volume)}"
+    if not options.resample and not options.isotropic:
+        text += ": a surface requires 8 voxels along each axis"
     new_sizes = np.maximum(1, np.floor(sizes * before / after + 0.5)).astype(int)
     first = 0.5 * ((sizes - 1) - (new_sizes - 1) * after / before)  # index of the first voxel
     is_plain, reslice = volume.array.ndim == 3, vtkImageReslice()
@@ -232,7 +229,7 @@ def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
     reslice.SetOutputSpacing(after.tolist())
     reslice.SetOutputOrigin((first * before).tolist())
     reslice.SetOutputExtent([int(n) for size in new_sizes for n in (0, size - 1)])
-    reslice.BorderOn()  # values reach out to the faces of the outer voxels
+    reslice.BorderOn()  # extrapolates to the faces of the outer voxels
     if not options.labels:
         reslice.SetInterpolationModeToLinear()
         reslice.SetOutputScalarType(11 if volume.array.dtype == float else 10)  # double, float
@@ -243,26 +240,26 @@ def resample(volume: Volume, options: Namespace, teller: Teller) -> None:
     volume.origin = tuple(volume.origin + volume.direction @ (before * (volume.start + first)))
     volume.spacing, volume.start = tuple(after.tolist()), (0, 0, 0)
     volume.resampling = "; ".join(filter(None, (volume.resampling, text)))
-    teller.say(f"{options.volume}: {text}")
+    console.info(f"{options.volume}: {text}")
 
 
 # ---- Values of other volumes -------------------------------------------------------------------
 
 class Probes:
-    """The volumes of --probe, in the space and unit of what is written.
+    """The volumes of --probe, in the coordinate system and unit of the outputs.
 
-    Values are interpolated linearly, NaN outside. A label map (it has names, or few values of
-    whole numbers with steps between neighbours) gives the label of the nearest voxel, 0 outside.
+    Values are interpolated linearly, and NaN outside. For label maps (with label names, or few
+    integer values with steps between neighbours) they are the nearest label, and 0 outside.
     """
 
-    def __init__(self, options: Namespace, world: World, teller: Teller) -> None:
-        self.depth, self.teller = options.probe_depth, teller
+    def __init__(self, options: Namespace, world: World, console: Console) -> None:
+        self.depth, self.console = options.probe_depth, console
         self.volumes: list[tuple[str, str, Volume, bool]] = []
         names = DistinctNames("-", lambda name: name[:max(name.find("."), 1)]
                               if "." in name else name)
         for path in options.probe:
-            volume = read(path, teller)
-            _convert(path, volume, world, teller)
+            volume = read(path, console)
+            _convert(path, volume, world, console)
             is_label_map = bool(volume.labels) or (
                 volume.array.ndim == 3 and volume.array.dtype.kind in "ui"
                 and bool(vtkVolumeToSurface.HintAtLabels(image_of(volume, volume.array))))
@@ -273,18 +270,18 @@ class Probes:
         return bool(self.volumes)
 
     def __call__(self, points: np.ndarray) -> dict[str, np.ndarray]:
-        """{name: values, n or n x components} at points, n x 3."""
+        """Return the values at points (n x 3): n or n x components for each name."""
         return {name: _values(volume, points, labels)[0]
                 for name, _, volume, labels in self.volumes}
 
     def add_to(self, *surfaces: Any) -> None:
-        """Give the points of surfaces the values, and report how many points lie outside."""
+        """Add point arrays with the values to surfaces. Warn of points outside."""
         for name, path, volume, labels in self.volumes:
             outside, count = 0, 0
             for surface in surfaces:
                 if surface is None or surface.GetNumberOfPoints() == 0:
                     continue
-                points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+                points = points_of(surface).astype(float)
                 normals = surface.GetPointData().GetNormals()
                 values, is_outside = _values(volume, points, labels)
                 if self.depth and normals is not None and not labels:
@@ -297,12 +294,12 @@ class Probes:
                 array.SetName(name)
                 surface.GetPointData().AddArray(array)
             if outside:
-                self.teller.warn(f"{path}: {outside} of {count} vertices lie outside this volume; "
-                                 "they have " + ("label 0" if labels else "the value NaN"))
+                self.console.warn(f"{path}: {outside} of {count} vertices are outside this volume "
+                                  "and get " + ("label 0" if labels else "the value NaN"))
 
 
 def _mean(parts: Iterable[np.ndarray]) -> np.ndarray:
-    """Return the mean of the arrays without their NaN."""
+    """Return the mean of arrays, ignoring NaN."""
     sums, counts = 0.0, 0
     for values in parts:
         known = ~np.isnan(values)
@@ -312,7 +309,7 @@ def _mean(parts: Iterable[np.ndarray]) -> np.ndarray:
 
 
 def _values(volume: Volume, points: np.ndarray, labels: bool) -> tuple[np.ndarray, np.ndarray]:
-    """Return the values at points, and whether the points are outside the voxels' faces."""
+    """Return the values at points, and whether the points are outside the volume."""
     from scipy import ndimage
     indices = ((points - volume.origin) @ volume.direction) / volume.spacing - volume.start
     indices, sizes = indices[:, ::-1], np.array(volume.array.shape[-3:])
@@ -325,14 +322,14 @@ def _values(volume: Volume, points: np.ndarray, labels: bool) -> tuple[np.ndarra
     return (values[:, 0] if len(parts) == 1 else values), outside
 
 
-def _convert(path: str, volume: Volume, world: World, teller: Teller) -> None:
-    """Put a second volume into the space and unit of the first."""
+def _convert(path: str, volume: Volume, world: World, console: Console) -> None:
+    """Transform a volume in place to the coordinate system and unit of `world`."""
     options = Namespace(unit=None, scale=None, space=None)
     for what in ("unit", "space"):
         own, other = getattr(volume, what), getattr(world, what)
         if own and other:
             setattr(options, what, other)
         elif own != other or (what == "unit" and world.scale != 1):
-            teller.warn(f"{path}: its {what} is {own or 'not stated'}, that of the surface "
-                        f"{other or 'not stated'}: coordinates are used unchanged")
-    place_in_world(volume, options)
+            console.warn(f"{path}: the {what} of the volume is {own or 'unknown'}, the {what} of "
+                         f"the surface is {other or 'unknown'}; coordinates are not converted")
+    convert_to_world(volume, options)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The labels of a label map: their names, the choice among them, and the list of them."""
+"""Labels of a label map: names, selection, list."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from typing import Any
 import numpy as np
 
 from .errors import Failure
-from .messages import Teller, run
+from .messages import Console, run
 from .reading.tables import names_beside, read_label_names
 from .reading.volume import Label, Volume, plain_name
 
 
 @dataclasses.dataclass
 class KnownLabel:
-    """A label that the map has."""
+    """A label of the map."""
     label: int
-    name: str  # `Label 3` where it has none
+    name: str  # `Label 3` if it has none
     voxels: int = 0
     color: tuple[float, ...] = (0.0, 0.0, 0.0)  # 0 to 1
-    layer: int = 0  # index of the image that has it
+    layer: int = 0  # index of its image
     box: tuple[int, ...] = (0, -1, 0, -1, 0, -1)  # first and last voxel along x, y, z
-    file_name: str = ""  # without suffix; differs from those of all other labels
+    file_name: str = ""  # unique, without suffix
 
     @property
     def is_named(self) -> bool:
-        """Whether it has a name, not only a number."""
+        """Whether the label has a name besides its number."""
         return self.name != f"Label {self.label}"
 
 
 # ---- Names ---------------------------------------------------------------------------------------
 
 def set_label_names(image: Any, labels: Sequence[Label]) -> None:
-    """Give an image names of labels as field data, as vtkLabelsToSurfaces reads them: colors if all
-    labels have one, layers if there are several."""
+    """Set the field data that vtkLabelsToSurfaces reads: label values and names, colours if all
+    labels have one, layers if listed are several."""
     from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkIntArray, vtkStringArray
     values, names, colors, layers = zip(*map(dataclasses.astuple, labels)) if labels else [()] * 4
     fields = image.GetFieldData()
@@ -58,9 +58,9 @@ def set_label_names(image: Any, labels: Sequence[Label]) -> None:
             fields.AddArray(array)
 
 
-def name_labels(options: Namespace, volume: Volume, image: Any, teller: Teller) -> list[Label]:
-    """Give the image of a volume the names of its labels, and return them: those of --label-names
-    before its own. If it has none, a file beside it names them; --labels reports that file."""
+def name_labels(options: Namespace, volume: Volume, image: Any, console: Console) -> list[Label]:
+    """Set the label names of an image and return them. Names of --label-names take precedence over
+    those of the volume. If the volume has none, they are read from a file next to it."""
     names = volume.labels
     if options.label_names:
         new = {label.value: label for label in read_label_names(options.label_names)}
@@ -73,8 +73,8 @@ def name_labels(options: Namespace, volume: Volume, image: Any, teller: Teller) 
         names, file, refused = names_beside(options.volume, outputs)
         if options.labels:
             for reason in refused:
-                teller.warn(f"{reason}; this file is skipped")
-            teller.say(f"names of labels are those of {file}" if file else "")
+                console.warn(f"{reason}; the file is ignored")
+            console.info(f"label names are read from {file}" if file else "")
     set_label_names(image, names)
     return names
 
@@ -82,21 +82,21 @@ def name_labels(options: Namespace, volume: Volume, image: Any, teller: Teller) 
 # ---- The labels of a map -------------------------------------------------------------------------
 
 def layers_of(image: Any, names: Sequence[Label], component: int | None) -> list[Any]:
-    """Return images of one label per voxel with their names: the image, its component, or all
-    components that have named labels. Throw Failure if there is no such component."""
+    """Return one image per layer, with label names: the image, its component, or all components
+    with named labels. Raise Failure if listed is none."""
     from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
     from vtkmodules.vtkCommonDataModel import vtkImageData
     scalars = image.GetPointData().GetScalars()
     count = scalars.GetNumberOfComponents()
     if component is not None and component >= count:
-        raise Failure(f"there is no component {component} (--component); voxels have {count}")
+        raise Failure(f"--component {component} is out of range; voxels have {count} components")
     if count == 1:
         set_label_names(image, names)
         return [image]
     chosen = sorted({label.layer for label in names if label.layer < count})
     chosen = chosen if component is None else [max(component, 0)]
     if not chosen:
-        raise Failure(f"voxels have {count} components; choose the one that is a label with "
+        raise Failure(f"voxels have {count} components; choose the label component with "
                       "--component")
     layers = []
     for layer in chosen:
@@ -112,11 +112,11 @@ def layers_of(image: Any, names: Sequence[Label], component: int | None) -> list
 
 
 def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespace,
-                 teller: Teller) -> tuple[list[KnownLabel], list[str]]:
-    """Return the labels of the layers, and the warnings about them. If a layer has too many, the
-    labels are the numbers of --labels."""
+                 console: Console) -> tuple[list[KnownLabel], list[str]]:
+    """Return the labels of the layers, and warnings. If a layer has too many labels, they are the
+    numbers in --labels."""
     from . import vtkFiltersVolumic
-    from .options import in_words_of_options
+    from .options import with_option_names
     from .writing.meshers import DistinctNames
     known: list[KnownLabel] = []
     warnings: list[str] = []
@@ -124,7 +124,7 @@ def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespa
         table = vtkFiltersVolumic.vtkLabelTable()
         table.SetInputData(layer)
         try:
-            warnings += run(table, "", Teller(quiet=True), in_words_of_options).warnings
+            warnings += run(table, "", Console(quiet=True), with_option_names).warnings
         except Failure:
             parts = ",".join(options.labels).split(",")
             if len(layers) > 1 or options.list_labels or not all(
@@ -140,7 +140,7 @@ def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespa
                              colors.GetTuple(row), number, tuple(map(int, boxes.GetTuple(row))))
                   for row in range(table.GetOutput().GetNumberOfRows())]
     for text in warnings:
-        teller.warn(f"{options.volume}: {text}")
+        console.warn(f"{options.volume}: {text}")
     files = [(safe_name(label.name) if label.is_named else "") or f"label-{label.label}"
              for label in known]
     uses, distinct = Counter(map(str.lower, files)), DistinctNames("-", str)
@@ -151,7 +151,7 @@ def known_labels(layers: Sequence[Any], names: Sequence[Label], options: Namespa
 
 
 def safe_name(name: str) -> str:
-    """Return the part of a name that file names on all systems may have, at most 120 bytes."""
+    """Return a name reduced to 120 bytes of characters that are valid in all file systems."""
     name = re.sub(r"""[\x00- \x7f/\\:*?"<>|'`$&;!%]""", "_", name).lstrip("._-~ ").rstrip("._ ")
     is_device = re.fullmatch("con|prn|aux|nul|(com|lpt)[1-3]", name.lower())
     return name.encode()[:120].decode(errors="ignore") + ("_" if is_device else "")
@@ -160,49 +160,49 @@ def safe_name(name: str) -> str:
 # ---- The choice ----------------------------------------------------------------------------------
 
 def choose(texts: Iterable[str], known: Sequence[KnownLabel], background: int) -> list[KnownLabel]:
-    """Return the labels that texts of --labels choose: `all`, numbers, ranges as 7-9, and names, in
-    which * stands for any text, with commas between. Only its number or its whole name choose the
-    background. Throw Failure if a text, except `all`, chooses none."""
+    """Return the labels selected by --labels: `all`, numbers, ranges such as 7-9, and names with
+    the wildcard *, separated by commas. The background is selected only by its number or full name.
+    Raise Failure if a text other than `all` selects none."""
     chosen: set[int] = set()
     for text in texts:
-        # A name may have commas.
+        # A name may contain commas.
         parts = [text] if _found(text, known, background) else text.split(",")
         for part in map(str.strip, parts):
             found = _found(part, known, background)
             if not found and part.lower() != "all":
-                there = [f"{label.label} {label.name}" if label.is_named else str(label.label)
-                         for label in known]
-                raise Failure(f"there is no label '{part}' (--labels); there are "
-                              + (", ".join(there) or "none"))
+                listed = [f"{label.label} {label.name}" if label.is_named else str(label.label)
+                          for label in known]
+                raise Failure(f"no label matches '{part}' (--labels); the labels are "
+                              + (", ".join(listed) or "none"))
             chosen.update(map(id, found))
     return [label for label in known if id(label) in chosen]
 
 
 def _found(text: str, known: Sequence[KnownLabel], background: int) -> list[KnownLabel]:
-    """Return the labels of a number; else those of a name, in any case if there is none in this
-    case; else those of a range or a pattern."""
+    """Return the labels that match a text: by number, name, name in any case, or range and pattern;
+    the first of these that matches any."""
     numbers = re.fullmatch(r"([+-]?\d+)(?:-([+-]?\d+))?", text)  # also -9--7
     first, last = (int(numbers[1]), int(numbers[2] or numbers[1])) if numbers else (1, 0)
     name = re.compile(".*".join(map(re.escape, text.split("*"))), re.DOTALL | re.IGNORECASE)
-    ways = (lambda label: first == last == label.label, lambda label: label.name == text,
-            lambda label: label.name.lower() == text.lower(),
-            lambda label: label.label != background and (
+    criteria = (lambda label: first == last == label.label, lambda label: label.name == text,
+                lambda label: label.name.lower() == text.lower(),
+                lambda label: label.label != background and (
                 text.lower() == "all" or first <= label.label <= last
                 or ("*" in text and label.is_named and name.fullmatch(label.name))))
-    return next(filter(None, (list(filter(way, known)) for way in ways)), [])
+    return next(filter(None, (list(filter(criterion, known)) for criterion in criteria)), [])
 
 
 # ---- The list ------------------------------------------------------------------------------------
 
 def list_rows(labels: Iterable[KnownLabel], spacing: Sequence[float]) -> list[dict[str, Any]]:
-    """What --list-labels reports of labels as JSON; volumes are in world units cubed."""
+    """Return the entries of --list-labels in the report; volumes are in cubic world units."""
     return [{"label": label.label, "name": label.name, "color": label.color, "layer": label.layer,
              "voxels": label.voxels, "volume": label.voxels * math.prod(spacing),
              "box": label.box} for label in labels]
 
 
 def table_of(labels: Iterable[KnownLabel], spacing: Sequence[float], layers: int) -> str:
-    """What --list-labels prints: a heading and a line per label."""
+    """Return the table that --list-labels prints."""
     line = ("{label:>10}  {voxels:>11}  {volume:>13}  " + "{layer:>5}  " * (layers > 1)
             + "{box:<37}  {name}\n")
     heading = {name: name for name in ("label", "voxels", "volume", "layer", "name")}

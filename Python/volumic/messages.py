@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the command prints on the standard error, and how it runs algorithms of VTK: messages,
-progress, Ctrl-C."""
+"""Messages, progress and signals of the command, and runs of VTK algorithms."""
 
 from __future__ import annotations
 
@@ -20,19 +19,19 @@ from .errors import Failure
 
 # ---- Signals -----------------------------------------------------------------------------------
 
-SAME_SIGNAL = 1.0  # seconds within which a second signal is the same one: `timeout` sends it twice
+SAME_SIGNAL = 1.0  # seconds; a second signal within this time is ignored: `timeout` sends two
 
 
 class _State:
-    interrupted_at: float | None = None  # when the first signal came
-    holds = False  # whether work continues after a signal
+    interrupted_at: float | None = None  # time of the first signal
+    deferred = False  # set by defer_signals()
 
 
 def _interrupt(number: int, _frame: Any) -> None:
     now = time.monotonic()
     if _State.interrupted_at is None:
         _State.interrupted_at = now
-        if not _State.holds:
+        if not _State.deferred:
             raise KeyboardInterrupt
     elif now - _State.interrupted_at > SAME_SIGNAL:
         signal.signal(number, signal.SIG_DFL)
@@ -40,33 +39,33 @@ def _interrupt(number: int, _frame: Any) -> None:
 
 
 def catch_signals() -> None:
-    """Handle SIGINT and SIGTERM. The first signal raises KeyboardInterrupt, or, after
-    hold_signals(), sets was_interrupted(). One that comes a second later ends the process."""
+    """Handle SIGINT and SIGTERM. The first one raises KeyboardInterrupt, or, after defer_signals(),
+    sets was_interrupted(). Another one more than SAME_SIGNAL seconds later ends the process."""
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, _interrupt)
 
 
-def hold_signals() -> None:
-    """From now on a signal stops the running algorithm, and what it has made is written."""
-    _State.holds = True
+def defer_signals() -> None:
+    """From now on, let a signal stop the running algorithm, and keep its result."""
+    _State.deferred = True
 
 
 def was_interrupted() -> bool:
-    """Whether a signal has come."""
+    """Return whether a signal was received."""
     return _State.interrupted_at is not None
 
 
 # ---- Texts -------------------------------------------------------------------------------------
 
 def number_text(value: float) -> str:
-    """The shortest text that is read back as the same number: `3`, `0.5`."""
+    """Return the shortest text that parses to the same number: `3`, `0.5`."""
     return str(value) if isinstance(value, int) else repr(float(value)).removesuffix(".0")
 
 
-def one_line(text: str, most: int = 1500) -> str:
-    """A text without line ends and control characters; the middle of a long one is left out."""
+def one_line(text: str, maximum: int = 1500) -> str:
+    """Return a text as one printable line, shortened in the middle to `maximum` characters."""
     text = " ".join("".join(c if c.isprintable() else " " for c in text).split())
-    return text if len(text) <= most else f"{text[:most // 2]} ... {text[-most // 2:]}"
+    return text if len(text) <= maximum else f"{text[:maximum // 2]} ... {text[-maximum // 2:]}"
 
 
 def _write(text: str) -> None:
@@ -74,66 +73,64 @@ def _write(text: str) -> None:
         sys.stderr.write(text)
         sys.stderr.flush()
     except OSError:
-        pass  # nobody reads it
+        pass  # closed
 
 
-class Teller:
-    """Prints messages and progress on the standard error; with `quiet` nothing but errors."""
+class Console:
+    """Prints messages and progress on the standard error; only errors if `quiet`."""
 
     def __init__(self, quiet: bool = False, progress: bool = False) -> None:
         self.quiet = quiet
         self.style = ("none" if quiet else "line" if sys.stderr.isatty()
                       else "lines" if progress else "none")
 
-    def say(self, text: str) -> None:
-        """Print a message, unless it is empty."""
+    def info(self, text: str) -> None:
+        """Print a message unless it is empty."""
         if text and not self.quiet:
             self.error(text)
 
     def warn(self, text: str) -> None:
-        """Print a warning."""
-        self.say(f"warning: {text}")
+        self.info(f"warning: {text}")
 
     def error(self, text: str) -> None:
-        """Print a message even with --quiet."""
+        """Print a message, also if quiet."""
         _write(f"volumic: {text}\n")
 
     def progress(self, title: str) -> Progress:
-        """The progress of one piece of work, for `with`."""
+        """Return a context manager that shows the progress of an operation."""
         return Progress(title, self.style)
 
 
 class Progress:
-    """Shows the finished share of a piece of work: on a terminal in one line that is redrawn and
-    erased at the end, else, with --progress, in a line for each tenth."""
+    """Shows the progress of an operation: in a terminal in one line, erased at the end; otherwise,
+    with --progress, in one line per 10 %."""
 
     def __init__(self, title: str, style: str) -> None:
         self.title, self.style = title, style
-        self.drawn_at = self.next_share = 0.0
+        self.drawn_at = self.next_fraction = 0.0
 
     def __enter__(self) -> Progress:
         return self
 
     def __exit__(self, *_: Any) -> None:
         if self.drawn_at:
-            _write("\r\x1b[K")  # erases the line
+            _write("\r\x1b[K")  # erase the line
 
-    def __call__(self, share: float, text: str = "") -> None:
-        """`share` of the work is done, 0 to 1."""
-        share = min(max(share, 0.0), 1.0)
+    def __call__(self, fraction: float, text: str = "") -> None:
+        """Show that `fraction` (0 to 1) of the operation is done."""
+        fraction = min(max(fraction, 0.0), 1.0)
         if self.style == "line" and time.monotonic() - self.drawn_at > 0.1:
             self.drawn_at = time.monotonic()
-            line = f"{self.title} [{'#' * int(24 * share):.<24}] {100 * share:3.0f} % {text}"
+            line = f"{self.title} [{'#' * int(24 * fraction):.<24}] {100 * fraction:3.0f} % {text}"
             _write("\r\x1b[K" + line[:max(shutil.get_terminal_size().columns, 20) - 1])
-        elif self.style == "lines" and share >= self.next_share:
-            _write(f"{self.title}: {100 * share:3.0f} %{'  ' + text if text else ''}\n")
-            self.next_share = share + 0.1
+        elif self.style == "lines" and fraction >= self.next_fraction:
+            _write(f"{self.title}: {100 * fraction:3.0f} %{'  ' + text if text else ''}\n")
+            self.next_fraction = fraction + 0.1
 
 
 # ---- Algorithms --------------------------------------------------------------------------------
 
 class Run(NamedTuple):
-    """What a run of an algorithm was like."""
     seconds: float = 0.0
     warnings: tuple[str, ...] = ()
     interrupted: bool = False
@@ -141,11 +138,9 @@ class Run(NamedTuple):
 
 def update(algorithm: Any, on_progress: Callable[[], None] = lambda: None
            ) -> tuple[list[str], list[str]]:
-    """Update an algorithm, or have a writer write; return its errors and its warnings.
-
-    `on_progress` is called at each ProgressEvent. VTK holds Python's lock while it works: at these
-    events handlers of signals run and other threads get the lock.
-    """
+    """Update an algorithm, or call Write() of a writer. Return errors and warnings. `on_progress`
+    is called at each ProgressEvent. VTK holds Python's interpreter lock while it runs; at these
+    events, signal handlers are called and other threads can run."""
     from vtkmodules.util.misc import calldata_type
     from vtkmodules.util.vtkConstants import VTK_STRING
     errors: list[str] = []
@@ -153,25 +148,25 @@ def update(algorithm: Any, on_progress: Callable[[], None] = lambda: None
 
     @calldata_type(VTK_STRING)
     def keep(_caller: Any, event: str, text: str) -> None:
-        # Without the position in VTK's source code.
+        # Remove the position in VTK's source code.
         text = re.sub(r"^(ERROR|Warning): In .*?\n.*?\): |^Generic Warning: In .*?\n", "", text,
                       flags=re.DOTALL)
-        # The executive repeats that its algorithm failed, which has stated the reason.
+        # The executive repeats the failure without its reason.
         if event == "WarningEvent":
             warnings.append(" ".join(text.split()))
         elif not errors or "returned failure for request" not in text:
             errors.append(" ".join(text.split()))
 
-    followed_at = 0.0
+    called_at = 0.0
 
-    def follow(*_: Any) -> None:
-        nonlocal followed_at
-        if time.monotonic() - followed_at > 0.02:  # there are 21,000 events of a skull
-            followed_at = time.monotonic()
-            time.sleep(0)
+    def show_progress(*_: Any) -> None:
+        nonlocal called_at
+        if time.monotonic() - called_at > 0.02:
+            called_at = time.monotonic()
+            time.sleep(0)  # lets other threads run
             on_progress()
 
-    tags = [(algorithm, algorithm.AddObserver("ProgressEvent", follow))]
+    tags = [(algorithm, algorithm.AddObserver("ProgressEvent", show_progress))]
     tags += [(source, source.AddObserver(event, keep))
              for source in (algorithm, algorithm.GetExecutive())
              for event in ("ErrorEvent", "WarningEvent")]
@@ -186,17 +181,17 @@ def update(algorithm: Any, on_progress: Callable[[], None] = lambda: None
 
 @contextlib.contextmanager
 def _signals_deferred(algorithm: Any) -> Iterator[None]:
-    """A signal stops the algorithm, and its handler is called afterwards: VTK ends the process if
-    a handler raises KeyboardInterrupt at an event."""
-    came: list[int] = []
+    """Let a signal abort the algorithm and call its handler afterwards. VTK ends the process if a
+    handler raises KeyboardInterrupt in an observer."""
+    received: list[int] = []
 
     def keep(number: int, _frame: Any) -> None:
-        came.append(number)
+        received.append(number)
         algorithm.SetAbortExecute(1)
 
     is_main = threading.current_thread() is threading.main_thread()
     handlers = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)
-                if is_main and not _State.holds and callable(signal.getsignal(number))}
+                if is_main and not _State.deferred and callable(signal.getsignal(number))}
     try:
         for number in handlers:
             signal.signal(number, keep)
@@ -204,21 +199,21 @@ def _signals_deferred(algorithm: Any) -> Iterator[None]:
     finally:
         for number, handler in handlers.items():
             signal.signal(number, handler)
-    for number in came[:1]:
+    for number in received[:1]:
         signal.raise_signal(number)
 
 
-def run(algorithm: Any, title: str, teller: Teller, words: Callable[[str], str] = str) -> Run:
-    """Update an algorithm, show its progress, and stop it after a signal. Throw Failure with its
-    first error. `words` puts messages into the terms of the command line."""
+def run(algorithm: Any, title: str, console: Console, translate: Callable[[str], str] = str) -> Run:
+    """Update an algorithm, show its progress, and abort it after a signal. Raise Failure with its
+    first error. `translate` converts messages to the terms of the command line."""
     started = time.monotonic()
-    with teller.progress(title) as progress:
-        def follow() -> None:
+    with console.progress(title) as progress:
+        def show_progress() -> None:
             if was_interrupted():
                 algorithm.SetAbortExecute(1)
             progress(algorithm.GetProgress(), algorithm.GetProgressText() or "")
 
-        errors, warnings = update(algorithm, follow)
+        errors, warnings = update(algorithm, show_progress)
     if errors:
-        raise Failure(words(errors[0]))
-    return Run(time.monotonic() - started, tuple(map(words, warnings)), was_interrupted())
+        raise Failure(translate(errors[0]))
+    return Run(time.monotonic() - started, tuple(map(translate, warnings)), was_interrupted())

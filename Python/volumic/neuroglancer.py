@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces as Neuroglancer's "precomputed" meshes: a folder with `info`, and files of each label.
+"""Meshes in Neuroglancer's "precomputed" format: a folder with `info` and the files of each label.
 
 https://neuroglancer-docs.web.app/datasource/precomputed/mesh.html
 """
@@ -27,19 +27,18 @@ INFO = {"precomputed": {"@type": "neuroglancer_legacy_mesh"},
 
 
 def precomputed(surface: Surface, nanometers: float = 1.0) -> bytes:
-    """Return a fragment of a legacy single-resolution mesh; `nanometers` is the length of a world
-    unit."""
+    """Return a fragment of a legacy mesh. `nanometers` is the length of a world unit."""
     return (np.array([len(surface.points)], "<u4").tobytes()
             + (np.asarray(surface.points, float) * nanometers).astype("<f4").tobytes()
             + surface.triangles.astype("<u4").tobytes())
 
 
 def multilod_draco(levels: Sequence[Surface], nanometers: float = 1.0) -> tuple[bytes, bytes]:
-    """Return the manifest and the fragments of a mesh of several levels of detail, finest first.
+    """Return manifest and fragments of a mesh with several levels of detail, the finest first.
 
-    Each level is one fragment, so that it stays closed; others cut the mesh along an octree. The
-    node of a level is twice as large as the one before, and the mesh fills its first octant. The
-    coordinates of a level are rounded to 1/65535 of its node.
+    Each level is a single fragment and thus closed. The octree node of each level is twice as large
+    as that of the level before, and the mesh is in its first octant. Coordinates are rounded to
+    1/65535 of the node.
     """
     points = [np.asarray(surface.points, float) * nanometers for surface in levels]
     together = np.concatenate(points)
@@ -59,10 +58,10 @@ def multilod_draco(levels: Sequence[Surface], nanometers: float = 1.0) -> tuple[
 
 
 def draco_encoder() -> str:
-    """Return the path of Draco's program."""
+    """Return the path of Draco's encoder. Raise RuntimeError if it is not installed."""
     program = shutil.which("draco_encoder")
     if program is None:
-        raise RuntimeError("multilod_draco is written by draco_encoder, which is missing (Debian: "
+        raise RuntimeError("multilod_draco requires the program draco_encoder; install it (Debian: "
                            "apt install draco)")
     return program
 

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volumes and label maps in OME-Zarr, version 0.4 and, with zarr 3 or later, 0.5.
+"""OME-Zarr images and label maps, version 0.4, and version 0.5 with zarr 3 or later.
 
     volume = volumic.ome_zarr.open("scan.ome.zarr", level=2)
     cells = volumic.ome_zarr.open("scan.ome.zarr", label="cells")
-    volumic.surface(cells[:64], spacing=cells.spacing, origin=cells.origin, iso=0.5)
+    volumic.labels(cells[:64], spacing=cells.spacing, origin=cells.origin)
 
-Paths are folders, or what fsspec opens: https://, s3://. Requires zarr (Debian: python3-zarr).
+Paths are folders or fsspec URLs (https://, s3://). Requires zarr (Debian: python3-zarr).
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from .reading.volume import METERS, unit_of
 
 
 class Volume:
-    """Three axes, z, y and x, of an array. Slices are read on demand.
+    """Three axes z, y, x of a Zarr array. Slices are read on demand.
 
     Attributes
     ----------
@@ -35,18 +35,18 @@ class Volume:
     spacing, origin : tuple of 3 floats
         x, y, z, from the coordinateTransformations; `origin` is the centre of voxel 0.
     unit : str
-        Unit of these lengths, common to all axes; empty if the file has none.
+        Unit of length, common to all axes; empty if the file states none.
     nanometers : float
-        Length of one unit in nanometers; 1 if the unit is missing or unknown.
+        Length of a unit in nanometers; 1 if the unit is missing or unknown.
     others : dict
-        {name: size} of the other axes of the array, such as "t" and "c".
+        Size of each other axis, such as "t" and "c".
     """
 
-    def __init__(self, array: Any, place: Sequence[int | None], order: Sequence[int],
+    def __init__(self, array: Any, indices: Sequence[int | None], order: Sequence[int],
                  others: dict[str, int] | None = None, folder: str = "") -> None:
         self.array = array
-        self.place = tuple(place)  # of each axis of the array: an index, None for z, y and x
-        self.order = tuple(order)  # axes of the array that are z, y and x
+        self.indices = tuple(indices)  # for each axis of the array; None: z, y or x
+        self.order = tuple(order)  # array axes of z, y and x
         self.shape = tuple(array.shape[axis] for axis in order)
         self.chunks = tuple(array.chunks[axis] for axis in order)
         self.dtype = array.dtype
@@ -60,8 +60,8 @@ class Volume:
         keys += [slice(None)] * (3 - len(keys))
         if len(keys) > 3 or not all(isinstance(index, (int, np.integer, slice))
                                     and not isinstance(index, bool) for index in keys):
-            raise IndexError(f"{key} does not index z, y, x: use integers, slices and one ellipsis")
-        picks = list(self.place)
+            raise IndexError(f"{key} is no index of z, y, x; use integers, slices and one ellipsis")
+        picks = list(self.indices)
         for axis, index in zip(self.order, keys):
             picks[axis] = index
         kept = [axis for axis, index in zip(self.order, keys) if isinstance(index, slice)]
@@ -72,13 +72,13 @@ class Volume:
         return whole if dtype is None else whole.astype(dtype)
 
     def missing_chunks(self) -> tuple[int, int]:
-        """Return the number of chunks of the volume that have no file, which zarr reads as the fill
-        value, and the number of all; (0, 0) unless the array is a folder. Throw ValueError if a
-        file is cut off: Blosc, which has no checksums, does not notice it."""
+        """Return the numbers of missing chunk files, whose voxels zarr reads as the fill value, and
+        of all chunks; (0, 0) if the array is not a local folder. Raise ValueError if a file is
+        truncated, which Blosc does not detect."""
         shards = getattr(self.array, "shards", None)
         needed = set(itertools.product(*(
             range(-(-length // size)) if index is None else [index // size] for length, size, index
-            in zip(self.array.shape, shards or self.array.chunks, self.place))))
+            in zip(self.array.shape, shards or self.array.chunks, self.indices))))
         files = {tuple(map(int, re.findall(r"\d+", os.path.relpath(path, self.folder)))): path
                  for folder, _, names in os.walk(self.folder)
                  for path in (os.path.join(folder, name) for name in names)}
@@ -87,43 +87,50 @@ class Volume:
         for path in [files[key] for key in needed & files.keys() if is_blosc]:
             with io.open(path, "rb") as file:
                 if int.from_bytes(file.read(16)[12:], "little") > os.path.getsize(path):
-                    raise ValueError(f"{path} is cut off; copy it again")
+                    raise ValueError(f"{path} is truncated; copy the file again")
         return (len(needed - files.keys()), len(needed)) if os.path.isdir(self.folder) else (0, 0)
 
 
 # pylint: disable-next=redefined-builtin
 def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,
          channel: int = 0) -> Volume:
-    """Return a level of the image in a group, or of one of its label maps.
+    """Return a level of an image, or of one of its label maps.
 
     Parameters
     ----------
     path : str
-        The group that has the `multiscales`.
+        The group with the `multiscales`.
     level : int, optional
-        0 is the finest.
+        Resolution level; 0 is the finest.
     label : str, optional
-        A label map of the image, see `label_names`.
+        Name of a label map of the image, see `label_names`.
     time, channel : int, optional
-        Indices along these axes; 0 if the array has no such axis.
+        Indices along these axes; 0 if the array lacks the axis.
+
+    Returns
+    -------
+    Volume
 
     Raises
     ------
     ValueError
-        If there is no such image. The message lists what the group has.
+        There is no such image. The message lists the content of the group.
+    ImportError
+        zarr is not installed.
     """
     if label is not None:
         known = label_names(path)
         if label not in known:
-            raise ValueError(f"{path} has no labels {label}; it has {', '.join(known) or 'none'}")
+            names = ", ".join(known) or "none"
+            raise ValueError(f"{path} has no label map {label}; it has {names}")
         path = f"{path.rstrip('/')}/labels/{label}"
     group = _group(path)
     attributes = _attributes(group)
     scales = attributes.get("multiscales")
     if not scales:
         there = attributes.get("labels") or sorted(name for name, _ in group.groups())
-        raise ValueError(f"{path}: no OME-Zarr image, there are no multiscales"
-                         + (f"; it has {', '.join(there)}: append one of them" if there else ""))
+        raise ValueError(f"{path}: not an OME-Zarr image, as it has no multiscales"
+                         + (f"; append one of {', '.join(there)} to the path" if there else ""))
     datasets = scales[0]["datasets"]
     if not 0 <= level < len(datasets):
         raise ValueError(f"{path} has no level {level}; it has 0 to {len(datasets) - 1}")
@@ -141,10 +148,10 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,
             raise ValueError(f"{path} has no index {index} along {name}; it has "
                              + (f"0 to {sizes[name] - 1}" if name in sizes else "no such axis"))
     for name in [name for name in sizes if name not in chosen and sizes[name] > 1]:
-        raise ValueError(f"{path} has {sizes[name]} images along its axis {name}; copy one of them "
-                         "into an image of its own")
-    place = [chosen.get(name, 0) if name in sizes else None for name in names]
-    volume = Volume(array, place, [names.index(name) for name in "zyx"], sizes,
+        raise ValueError(f"{path} has {sizes[name]} images along the unsupported axis {name}; "
+                         "copy one of them to a separate image")
+    indices = [chosen.get(name, 0) if name in sizes else None for name in names]
+    volume = Volume(array, indices, [names.index(name) for name in "zyx"], sizes,
                     os.path.join(path, str(datasets[level]["path"])))
     _set_coordinates(volume, path, [datasets[level], scales[0]],
                      [str(axes[axis].get("unit") or "") for axis in volume.order[::-1]])
@@ -152,16 +159,16 @@ def open(path: str, level: int = 0, *, label: str | None = None, time: int = 0,
 
 
 def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[str]) -> None:
-    """Set spacing, origin and unit. `units` are those of x, y and z; lengths are in that of x."""
-    count = len(volume.place)
+    """Set spacing, origin and unit, that of x. `units` are those of x, y and z."""
+    count = len(volume.indices)
     scale, translation = np.ones(count), np.zeros(count)
     for step in [s for source in sources for s in source.get("coordinateTransformations", [])]:
         given = [np.asarray(step.get(name, default * np.ones(count)), dtype=float)
                  for name, default in (("scale", 1), ("translation", 0))]
         if step.get("type") not in ("scale", "translation", "identity") or "path" in step or any(
                 numbers.shape != (count,) or not np.isfinite(numbers).all() for numbers in given):
-            raise ValueError(f"{path}: the transformation {step} is not supported; there must be "
-                             f"scale or translation with {count} numbers")
+            raise ValueError(f"{path}: the transformation {step} is not supported; use scale or "
+                             f"translation with {count} numbers")
         scale, translation = scale * given[0], translation * given[0] + given[1]
     lengths = [round(1e9 * METERS.get(unit_of(unit), 0.0), 6) for unit in units]  # in nanometers
     if 0.0 in lengths and len(set(units)) > 1:
@@ -176,7 +183,7 @@ def _set_coordinates(volume: Volume, path: str, sources: list[Any], units: list[
 
 
 def label_names(path: str) -> list[str]:
-    """Return the names of the label maps of the image in a group, for `open`."""
+    """Return the names of the label maps of an image."""
     try:
         return list(_attributes(_group(f"{path.rstrip('/')}/labels")).get("labels", []))
     except ValueError:
@@ -200,9 +207,9 @@ def _group(path: str) -> Any:
             zarr.open_array(path, mode="r")
         except Exception:  # pylint: disable=broad-except
             new = os.path.exists(os.path.join(path, "zarr.json")) and zarr.__version__ < "3"
-            raise ValueError(f"{path}: there is no group of Zarr" + (
+            raise ValueError(f"{path}: not a Zarr group" + (
                 " 2; install zarr 3 to read Zarr 3" if new else "")) from error
-        raise ValueError(f"{path} is the array of a level; give the group that has it, "
+        raise ValueError(f"{path} is the array of a level; open the group that contains it, "
                          f"{os.path.dirname(path.rstrip('/'))}") from error
 
 

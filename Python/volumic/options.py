@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: its parser, and which options exclude each other (tables: option_tables.py)."""
+"""Parser of the command line and checks of its options. Tables: option_tables.py."""
 
 from __future__ import annotations
 
@@ -12,47 +12,49 @@ from typing import Any
 
 from .errors import UsageError
 from .option_tables import (
-    INPUT, LABELS, OUTPUT, PROPERTIES, Filters, Option, Property, is_of_labels)
+    INPUT, LABELS, OUTPUT, PROPERTIES, Filters, Option, Property, applies_to_labels)
 from .reading.volume import Choice
-from .writing import is_of_solids
+from .writing import holds_volume_mesh
 
-# Options of which one excludes the others.
+# Mutually exclusive options.
 EXCLUSIONS = {
     "edges": ("region", "region-box", "resample", "isotropic"), "region": ("region-box",),
     "resample": ("isotropic",), "scale": ("unit",), "time": ("phase",),
     "seeds": ("initial-surface",), "seed-position": ("initial-surface",),
     "triangles": ("tolerance", "edge-length", "time-limit")}
-# Surfaces of labels have no evolution to choose and watch.
+# Options of the evolution, which label maps do not have.
 NOT_WITH_LABELS = ("seeds", "seed-position", "initial-surface", "attracting-points",
                    "attracting-position", "edges", "history", "levels-output", "snapshots")
-NEEDS = {"edge-attraction": "edges", "probe-depth": "probe"}
-ENDED = {"resume": "a run is not resumed any more; start it again",
-         "memory": "limit the memory by systemd-run -p MemoryMax=, and give --scratch DIR",
-         "gap": "labels that touch share their interface",
-         "piece-size": "surfaces are not written in pieces any more",
-         "profile": "the history has no columns of phases"}
+REQUIRES = {"edge-attraction": "edges", "probe-depth": "probe"}
+REMOVED = {"resume": "runs cannot be resumed; start the run again",
+           "memory": "limit the memory with systemd-run -p MemoryMax=SIZE and set --scratch DIR",
+           "gap": "adjacent labels share their interface",
+           "piece-size": "each surface is written as one piece",
+           "profile": "the history has no timings of phases"}
 
 
 # ---- The command line --------------------------------------------------------------------------
 
 def make_parser(filters: Filters | None = None) -> argparse.ArgumentParser:
-    """Return the parser for --help and completion; with filters the help has the defaults of their
-    properties."""
+    """Return the parser for --help and completion. With `filters`, the help shows the defaults of
+    their properties."""
     parser = argparse.ArgumentParser(
         prog="volumic", usage="volumic [OPTION]... VOLUME SURFACE...", add_help=False,
         formatter_class=lambda prog: argparse.HelpFormatter(prog, 2, 26, 80),
-        description="Finds the surface of an object in a 3D image with a closed, deformable "
-        "surface that descends a pyramid of the image from coarse to fine, and writes it.",
-        epilog="Exit codes: 0 done; 1 something failed; 2 wrong usage; 3 stopped by Ctrl-C, "
-        "--time-limit or --iterations: the surface as it was then is written.")
+        description="Compute the closed triangulated surface of an object in a 3D image, or of "
+        "each label of a label map (--labels). A deformable surface is fitted to an image pyramid "
+        "from coarse to fine.",
+        epilog="Exit codes: 0 success; 1 failure; 2 wrong usage; 3 stopped by --time-limit, "
+        "--iterations or Ctrl-C: the current surface is written.")
     parser.add_argument("volume", metavar="VOLUME", nargs="?",
-                        help="a file, a folder of DICOM slices, pictures or masks, an OME-Zarr "
-                        "group, or a pattern such as 'slice%%03d.png' or '*.tif'")
+                        help="image file, folder of DICOM slices, pictures or masks, OME-Zarr "
+                        "group, or file name pattern such as 'slice%%03d.png' or '*.tif'")
     parser.add_argument("surfaces", metavar="SURFACE", nargs="*",
-                        help=".vtp .vtk .stl .ply .obj .glb .3mf; filled with tetrahedra .vtu "
-                        ".inp and what meshio writes; for meshers .msh .smesh .poly; with "
-                        "--labels also a folder for a file per label, OUT/, or .vtm; .vtp .vtk "
-                        "and those for tetrahedra hold one mesh of several labels")
+                        help="output file. Surface: .vtp .vtk .stl .ply .obj .glb .3mf; "
+                        "tetrahedral mesh: .vtu .inp .xdmf .med .bdf .mesh .exo; input of meshers: "
+                        ".msh .smesh .poly. With --labels also a folder (OUT/, a file per label) "
+                        "or .vtm; .vtp, .vtk, tetrahedral meshes and input of meshers store one "
+                        "mesh of all labels")
     for title, options in (("Input", INPUT), ("Segmentation", PROPERTIES), ("Output", OUTPUT)):
         group = parser.add_argument_group(title)
         for item in options:
@@ -63,51 +65,60 @@ def make_parser(filters: Filters | None = None) -> argparse.ArgumentParser:
             names = (["-q"] if item.option == "quiet" else []) + [f"--{item.option}"]
             group.add_argument(*names, help=text.replace("%", "%%"), **(
                 {"metavar": item.metavar} if item.metavar else {"action": "store_true"}))
-    group.add_argument("-h", "--help", action="store_true", help="print this text")
+    group.add_argument("-h", "--help", action="store_true", help="print this help")
     group.add_argument("--version", action="store_true",
                        help="print the versions of Volumic and VTK")
     return parser
 
 
-def parse(words: Sequence[str]) -> argparse.Namespace:
-    """Return the options of a command line, with `given`, the names of those that it has,
-    `properties`, pairs of a Property and its text, and `choice`, what of the volume is read.
+def parse(arguments: Sequence[str]) -> argparse.Namespace:
+    """Parse a command line.
 
-    Throw UsageError if the words are not understood, exclude each other or lack something.
+    Returns
+    -------
+    argparse.Namespace
+        The options, and `given` (names of the options present), `properties` (pairs of a Property
+        and its text) and `choice` (a reading.Choice).
+
+    Raises
+    ------
+    UsageError
+        An option is unknown, incomplete or incompatible with another one.
     """
     known = {item.option: item for item in (*INPUT, *PROPERTIES, *OUTPUT)}
-    values = {item.option: [] if item.several else None if item.metavar else False
+    values = {item.option: [] if item.repeatable else None if item.metavar else False
               for item in (*INPUT, *OUTPUT)}
     values.update(help=False, version=False, ends="closed", properties=[])
     values["probe-depth"] = 0.0
-    plain, given, rest = [], set(), list(words)
-    while rest:
-        word = rest.pop(0)
-        word = {"-h": "--help", "-q": "--quiet"}.get(word, word)
-        if word == "--":
-            plain, rest = plain + rest, []
-        elif len(word) < 2 or word[0] != "-":
-            plain.append(word)
+    positional, given, remaining = [], set(), list(arguments)
+    while remaining:
+        argument = remaining.pop(0)
+        argument = {"-h": "--help", "-q": "--quiet"}.get(argument, argument)
+        if argument == "--":
+            positional, remaining = positional + remaining, []
+        elif len(argument) < 2 or argument[0] != "-":
+            positional.append(argument)
         else:
-            name, equals, text = word[2:].partition("=")
-            if word[:2] != "--" or name not in {*known, "help", "version"}:
-                _unknown(word.partition("=")[0], known)
+            name, equals, text = argument[2:].partition("=")
+            if argument[:2] != "--" or name not in {*known, "help", "version"}:
+                _unknown(argument.partition("=")[0], known)
             given.add(name)
             item = known.get(name)
-            takes = item is not None and bool(item.metavar)
-            if equals and not takes:
+            takes_argument = item is not None and bool(item.metavar)
+            if equals and not takes_argument:
                 raise UsageError(f"--{name} takes no argument")
-            if takes and not equals and not rest:
-                raise UsageError(f"--{name} needs an argument")
-            text = rest.pop(0) if takes and not equals else text
+            if takes_argument and not equals and not remaining:
+                raise UsageError(f"--{name} requires an argument")
+            text = remaining.pop(0) if takes_argument and not equals else text
             if isinstance(item, Property):
                 values["properties"].append((item, text))
             else:
-                value = _parsed(item, text) if takes else True
-                values[name] = [*values[name], value] if takes and item.several else value
+                value = _parsed(item, text) if takes_argument else True
+                is_list = takes_argument and item.repeatable
+                values[name] = [*values[name], value] if is_list else value
     options = argparse.Namespace(
         **{name.replace("-", "_"): value for name, value in values.items()}, given=given,
-        volume="".join(plain[:1]), surfaces=plain[1:])
+        volume="".join(positional[:1]), surfaces=positional[1:])
     if options.list_labels and not options.labels:
         options.labels = ["all"]
     options.choice = Choice(
@@ -125,119 +136,119 @@ def _parsed(item: Option, text: str) -> Any:
         raise UsageError(f"--{item.option}: {error}") from None
 
 
-def _unknown(word: str, known: dict[str, Any]) -> None:
-    if word[2:] in ENDED:
-        raise UsageError(f"{word} is gone: {ENDED[word[2:]]}")
-    near = difflib.get_close_matches(word[2:], known, 1)
-    raise UsageError(f"unknown option {word}" + (f"; did you mean --{near[0]}?" if near else ""))
+def _unknown(argument: str, known: dict[str, Any]) -> None:
+    if argument[2:] in REMOVED:
+        raise UsageError(f"{argument} is not supported: {REMOVED[argument[2:]]}")
+    near = difflib.get_close_matches(argument[2:], known, 1)
+    hint = f"; did you mean --{near[0]}?" if near else ""
+    raise UsageError(f"unknown option {argument}{hint}")
 
 
 def has_property(options: argparse.Namespace, name: str) -> bool:
-    """Whether the command line sets a property."""
     return any(item.name == name for item, _ in options.properties)
 
 
 def apply(options: argparse.Namespace, filters: Filters) -> None:
-    """Set the properties of the command line. Throw UsageError if a text is not a value."""
+    """Set the properties of the command line. Raise UsageError if a value is invalid."""
     for item, text in options.properties:
         try:
             item.set(filters, text)
         except (UsageError, OverflowError) as error:
             raise UsageError(f"--{item.option}: {error}") from None
-    filters.share()
+    filters.copy_common_properties()
 
 
-def wants_surface(options: argparse.Namespace) -> bool:
-    """Whether a surface is requested, or a report of it or of the labels."""
+def needs_surface(options: argparse.Namespace) -> bool:
+    """Return whether an output needs the surface, or the labels."""
     return bool(options.list_labels or options.surfaces or options.levels_output or options.report
                 or options.history or options.snapshots)
 
 
-def makes_tetrahedra(options: argparse.Namespace) -> bool:
-    """Whether a file of tetrahedra is requested."""
+def writes_tetrahedra(options: argparse.Namespace) -> bool:
     from .writing.tetrahedra import needs_mesher
     names = options.surfaces + ([f"in_folder.{options.format}"] if options.format else [])
     return any(needs_mesher(name, options.mesher) for name in names)
 
 
-# ---- What makes no sense together --------------------------------------------------------------
+# ---- Incompatible options ----------------------------------------------------------------------
 
 def exclude(options: argparse.Namespace, option: str, others: Sequence[str]) -> None:
-    """Throw UsageError if the option and one of the others are given."""
+    """Raise UsageError if `option` and one of `others` are given."""
     for other in others:
         if option in options.given and other in options.given:
-            raise UsageError(f"--{option} and --{other} exclude each other")
+            raise UsageError(f"--{option} and --{other} are mutually exclusive")
 
 
 def check(options: argparse.Namespace) -> None:
-    """Throw UsageError if something is missing, or options are given that exclude each other."""
+    """Raise UsageError if an argument is missing or options are incompatible."""
     if options.help or options.version or options.list_properties:
         return
     if not options.volume:
-        raise UsageError("no volume is given")
+        raise UsageError("VOLUME is missing")
     if options.list_files or options.list_series:
         return
-    if not wants_surface(options) and not options.write_volume:
-        raise UsageError("no file to write is given")
+    if not needs_surface(options) and not options.write_volume:
+        raise UsageError("no output is given; give SURFACE or an output option")
     (_check_with_labels if options.labels else _check_without_labels)(options)
     for option, others in EXCLUSIONS.items():
         exclude(options, option, others)
-    for option, needed in NEEDS.items():
-        if option in options.given and needed not in options.given:
-            raise UsageError(f"--{option} needs --{needed}")
+    for option, required in REQUIRES.items():
+        if option in options.given and required not in options.given:
+            raise UsageError(f"--{option} requires --{required}")
     for option in ("mesher", "maximum-volume"):
-        if option in options.given and not makes_tetrahedra(options):
-            raise UsageError(f"--{option} needs a file of tetrahedra: .vtu, .inp, or .msh with "
-                             "--mesher")
-    if options.ends == "open" and any(map(is_of_solids, options.surfaces)):
-        raise UsageError("--ends open and files of solids, which are closed, exclude each other")
+        if option in options.given and not writes_tetrahedra(options):
+            raise UsageError(f"--{option} requires a tetrahedral mesh as output: .vtu, .inp, or "
+                             ".msh with --mesher")
+    if options.ends == "open":
+        for name in filter(holds_volume_mesh, options.surfaces):
+            raise UsageError(f"{name}: tetrahedral meshers require a closed surface; use --ends "
+                             "marked instead of --ends open")
 
 
 def _check_without_labels(options: argparse.Namespace) -> None:
     for item, _ in options.properties:
         if item.cls == LABELS:
-            raise UsageError(f"--{item.option} needs --labels")
+            raise UsageError(f"--{item.option} requires --labels")
     if options.format:
-        raise UsageError("--format needs --labels")
+        raise UsageError("--format requires --labels")
     if options.label_names and not options.write_volume:
-        raise UsageError("--label-names needs --labels, or --write-volume")
+        raise UsageError("--label-names requires --labels or --write-volume")
 
 
 def _check_with_labels(options: argparse.Namespace) -> None:
     from .segment_labels import check_outputs
     mode = "list-labels" if options.list_labels else "labels"
     if options.list_labels and options.surfaces:
-        raise UsageError(f"{options.surfaces[0]}: --list-labels makes no surfaces; leave out the "
-                         "file or the option")
+        raise UsageError(f"{options.surfaces[0]}: --list-labels writes no surfaces; remove the "
+                         "file name or the option")
     exclude(options, mode, NOT_WITH_LABELS)
     exclude(options, "list-labels", ("format", "triangles"))
     listed = ("SelectedComponent", "BackgroundLabel", "NumberOfThreads", "ScratchDirectory")
     for item, text in options.properties:
-        if not (item.name in listed if options.list_labels else is_of_labels(item)):
-            raise UsageError(f"--{item.option} and --{mode} exclude each other"
-                             + "; --edge-length makes edges shorter" * (item.name == "ThinParts"))
+        if not (item.name in listed if options.list_labels else applies_to_labels(item)):
+            raise UsageError(f"--{item.option} and --{mode} are mutually exclusive"
+                             + "; use --edge-length" * (item.name == "ThinParts"))
         if item.name == "KeepComponents" and text in ("at-points", "not-at-seeds"):
-            raise UsageError(f"--keep {text} and --labels exclude each other")
+            raise UsageError(f"--keep {text} and --labels are mutually exclusive")
     check_outputs(options)
 
 
 # ---- Messages of filters -----------------------------------------------------------------------
 
-def in_words_of_options(message: str) -> str:
-    """Return a message of a filter, which names properties as ParaView's panel does, in the terms
-    of the command line: `Iso Value` becomes --iso."""
-    return _PHRASES.sub(_in_words, message)
+def with_option_names(message: str) -> str:
+    """Replace property labels by options in a message of a filter: `Iso Value` becomes --iso."""
+    return _PHRASES.sub(_option_name, message)
 
 
-def _in_words(match: re.Match[str]) -> str:
+def _option_name(match: re.Match[str]) -> str:
     switch, label, verb, state = match.groups("")
     option, value = _LABELS[label]
     if value is None or (value and not state):
         return match.group().replace(label, option)
     is_given = (state == "on") == value
     if switch:
-        word = "give" if is_given else "leave out"
-        return f"{word.capitalize() if switch[0] == 'S' else word} {option}"
+        action = "give" if is_given else "remove"
+        return f"{action.capitalize() if switch[0] == 'S' else action} {option}"
     return f"{option} is {'' if is_given else 'not '}given" if verb else match.group()
 
 
@@ -247,7 +258,7 @@ _LABELS.update({name: (text, None) for name, text in {
     "Initial Surface (input port 1)": "--initial-surface", "Edge Map": "--edges",
     "Attracting Points (input port 2)": "--attracting-points", "Input port 0": "the volume",
     "Seed Positions": "--seed-position", "Attracting Positions": "--attracting-position"}.items()})
-# Neither within a word nor within the name of a file; the longest name first.
+# Not within a word or a file name. Longer names first.
 _PHRASES = re.compile(r"(?:(?<=^)|(?<=[ (]))([Ss]witch )?(" + "|".join(
     re.escape(name) for name in sorted(_LABELS, key=len, reverse=True))
     + r")(?:( is)? (on|off))?(?=$|[ )]|[.,;:](?:$| ))")

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command on a volume: read it, find the surface of the object, write what the options
-request. Label maps: segment_labels.py."""
+"""The command for volumes: read, compute the surface, write. Label maps: segment_labels.py."""
 
 from __future__ import annotations
 
@@ -15,23 +14,22 @@ from . import geometry, messages, report, writing
 from . import vtkFiltersVolumic as vtk
 from .errors import Failure, Interrupted
 from .label_map import name_labels
-from .messages import Run, Teller, number_text
+from .messages import Run, Console, number_text
 from .option_tables import Filters
 from .options import (
-    has_property, in_words_of_options, makes_tetrahedra, wants_surface)
+    has_property, with_option_names, writes_tetrahedra, needs_surface)
 from .reading import list_files, points
 from .triangles import find_triangles
 from .writing import files
-from .writing.tetrahedra import SolidMaker, find_mesher
+from .writing.tetrahedra import TetrahedralMesher, find_mesher
 
 DONE, UNFINISHED = 0, 3  # exit codes
-NOTHING = "there was a surface; nothing is written"
+NO_RESULT = "a surface was computed; no file was written"
 
 
 # ---- Files -------------------------------------------------------------------------------------
 
 def inputs_of(options: Namespace) -> list[str]:
-    """All files that a run reads."""
     paths = list_files(options.volume, options.choice)
     for path in [options.edges, *options.probe]:
         paths += list_files(path, None) if path and os.path.exists(path) else []
@@ -41,7 +39,6 @@ def inputs_of(options: Namespace) -> list[str]:
 
 
 def other_outputs(options: Namespace) -> list[files.OutputName]:
-    """What is written beside the surfaces."""
     outputs = []
     for name, prefix in ((options.levels_output, "level"), (options.snapshots, "snapshot")):
         if name:
@@ -55,18 +52,18 @@ def other_outputs(options: Namespace) -> list[files.OutputName]:
 
 
 def check_files(options: Namespace, outputs: list[files.OutputName]) -> None:
-    """Throw Failure or UsageError if something is wrong with the files before the work begins."""
+    """Check inputs, outputs and meshers before the run. Raise Failure or UsageError."""
     if options.write_volume:
         writing.check_volume_name(options.write_volume)
     files.check_outputs(outputs + other_outputs(options), inputs_of(options))
-    if makes_tetrahedra(options):
+    if writes_tetrahedra(options):
         find_mesher(options.mesher)
 
 
 # ---- Before the run ----------------------------------------------------------------------------
 
-def set_start(options: Namespace, surface: Any) -> None:
-    """Give the filter the seeds, the initial surface and the attracting points."""
+def set_initial_data(options: Namespace, surface: Any) -> None:
+    """Pass seeds, initial surface and attracting points to the filter."""
     chosen = has_property(options, "Initialization")
     for position in options.seed_position:
         surface.AddSeedPosition(*position)
@@ -85,18 +82,18 @@ def set_start(options: Namespace, surface: Any) -> None:
         surface.SetAttractingPointsData(points.read_attracting_points(options.attracting_points))
 
 
-def set_edges(options: Namespace, image: Any, surface: Any, teller: Teller) -> None:
-    """Give the image the map of edges as a second array."""
+def set_edges(options: Namespace, image: Any, surface: Any, console: Console) -> None:
+    """Add the edge map to the image as a second array."""
     if not options.edges:
         return
     if os.path.exists(options.edges):
-        edges = geometry.read(options.edges, teller)
+        edges = geometry.read(options.edges, console)
     else:
-        edges = geometry.read(options.volume, Teller(quiet=True), array=options.edges)
+        edges = geometry.read(options.volume, Console(quiet=True), array=options.edges)
         if edges.name != options.edges:
-            raise Failure(f"{options.edges}: neither a file nor an array of {options.volume}")
+            raise Failure(f"{options.edges}: not a file, and not an array of {options.volume}")
     if edges.array.shape[-3:] != tuple(image.GetDimensions()[::-1]):
-        raise Failure(f"{options.edges}: its size differs from the volume's")
+        raise Failure(f"{options.edges}: its dimensions differ from those of the volume")
     array = geometry.image_of(edges, edges.scalars()).GetPointData().GetScalars()
     array.SetName("Edges" if image.GetPointData().GetScalars().GetName() != "Edges" else "Edges_")
     image.GetPointData().AddArray(array)
@@ -105,44 +102,43 @@ def set_edges(options: Namespace, image: Any, surface: Any, teller: Teller) -> N
         surface.SetEdgeAttractionWeight(2.0)
 
 
-def take_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, teller: Teller) -> None:
-    """Set the iso-value where the options have none, and report it."""
+def set_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, console: Console) -> None:
+    """Set the iso-value to Otsu's threshold and report it."""
     otsu = vtk.vtkOtsuThreshold()
     otsu.SetInputData(loaded.image)
-    messages.run(otsu, "Otsu's threshold", Teller(quiet=True), in_words_of_options)
+    messages.run(otsu, "Otsu's threshold", Console(quiet=True), with_option_names)
     surface.SetIsoValue(otsu.GetThreshold())
-    least = loaded.range[0]
-    padding = least < -1024 and otsu.GetHistogram().GetValue(0) > least
-    teller.say(f"iso-value {number_text(otsu.GetThreshold())}, a guess by Otsu's threshold"
-               + (f", for which voxels of {number_text(least)} are padding" if padding else "")
-               + "; choose another one with --iso")
+    minimum = loaded.range[0]
+    padding = minimum < -1024 and otsu.GetHistogram().GetValue(0) > minimum
+    console.info(f"iso-value {number_text(otsu.GetThreshold())}, estimated by Otsu's threshold"
+                 + (f" without padding voxels of value {number_text(minimum)}" if padding else "")
+                 + "; set another value with --iso")
 
 
 # ---- The run -----------------------------------------------------------------------------------
 
 class Segmentation:
-    """One run: the volume, the filters, and what came of them."""
+    """One run of the filters on a volume."""
 
     def __init__(self, options: Namespace, filters: Filters, loaded: geometry.LoadedVolume,
-                 teller: Teller) -> None:
-        self.options, self.filters, self.loaded, self.teller = options, filters, loaded, teller
+                 console: Console) -> None:
+        self.options, self.filters, self.loaded, self.console = options, filters, loaded, console
         self.warnings: list[str] = []
         self.seconds = [0.0, 0.0]  # of the pyramid and of the surface
 
     def run(self, algorithm: Any, title: str) -> Run:
-        """Run a filter. Failures for want of memory name the volume and say what helps."""
+        """Run a filter. Raise Failure with advice if memory is insufficient."""
         try:
-            return messages.run(algorithm, title, self.teller, in_words_of_options)
+            return messages.run(algorithm, title, self.console, with_option_names)
         except (Failure, MemoryError) as error:
             if isinstance(error, MemoryError) or "memory" in str(error):
                 raise Failure(
-                    f"{self.options.volume}: not enough memory to segment it; a coarser level "
-                    "(--finest 1), or the volume cropped or resampled, needs less") from None
+                    f"{self.options.volume}: not enough memory; stop at a coarser level (--finest "
+                    "1), or crop or resample the volume") from None
             raise
 
-    def give_levels(self) -> None:
-        """Give the surface's filter its levels: those of a pyramid that is built here, or, where a
-        property decides on them, the volume."""
+    def connect_input(self) -> None:
+        """Connect the surface filter to a pyramid, or, for vtkVolumeToSurface, to the volume."""
         pyramid, surface = self.filters.pyramid, self.filters.surface
         if surface.IsA("vtkVolumeToSurface"):
             for name in ("NumberOfLevels", "MinimumLevelSize", "ReductionFactor"):
@@ -151,38 +147,38 @@ class Segmentation:
             return
         pyramid.SetSelectedComponent(surface.GetSelectedComponent())
         pyramid.SetInputData(self.loaded.image)
-        pyramid.ReleaseDataFlagOn()  # the surface leaves one level after the other
+        pyramid.ReleaseDataFlagOn()  # levels are released after use
         run = self.run(pyramid, "Building the pyramid")
-        self.keep(run)
+        self.report_warnings(run)
         self.seconds[0] = run.seconds
         if run.interrupted:
-            raise Interrupted("interrupted before " + NOTHING)
+            raise Interrupted("interrupted before " + NO_RESULT)
         surface.SetInputConnection(pyramid.GetOutputPort())
 
-    def keep(self, run: Run) -> None:
-        """Print the warnings of a run."""
+    def report_warnings(self, run: Run) -> None:
+        """Print and store the warnings of a run."""
         for text in run.warnings:
-            self.teller.warn(text)
+            self.console.warn(text)
         self.warnings += run.warnings
 
     def evolve(self) -> None:
-        """Run the filter of the surface. Throw Failure where there is none at the end."""
+        """Compute the surface. Raise Failure if it is empty."""
         surface = self.filters.surface
-        self.give_levels()
+        self.connect_input()
         run = (self.find_triangles() if self.options.triangles
                else self.run(surface, "Evolving the surface"))
-        self.keep(run)
+        self.report_warnings(run)
         self.seconds[1] = run.seconds
         if surface.GetOutput().GetNumberOfPolys() == 0:
-            if report.stop_reason(surface.GetOutput()) == "time limit":
-                raise Interrupted("the time limit came before " + NOTHING)
+            if geometry.field_text(surface.GetOutput(), "StopReason") == "time limit":
+                raise Interrupted("time limit reached before " + NO_RESULT)
             if run.interrupted:
-                raise Interrupted("interrupted before " + NOTHING)
-            raise Failure(f"the surface vanished: is the object where the image is "
-                          f"{self.place_of_object()}? (--iso, --upper, --dark)")
+                raise Interrupted("interrupted before " + NO_RESULT)
+            raise Failure(f"the surface vanished; check that the object has image values "
+                          f"{self.object_range()} (--iso, --upper, --dark)")
 
-    def place_of_object(self) -> str:
-        """Where the image is ..."""
+    def object_range(self) -> str:
+        """Return the range of image values of the object, as text."""
         surface = self.filters.surface
         bright, iso = surface.GetObjectIsBright(), number_text(surface.GetIsoValue())
         if has_property(self.options, "UpperValue"):
@@ -191,7 +187,6 @@ class Segmentation:
         return ("above " if bright else "below ") + iso
 
     def find_triangles(self) -> Run:
-        """Run the filter until the surface has about --triangles triangles."""
         surface, last, seconds = self.filters.surface, Run(), 0.0
 
         def make(edge_length: float, tolerance: float) -> tuple[int, float]:
@@ -204,122 +199,120 @@ class Segmentation:
             return output.GetNumberOfPolys(), report.values_of(output, "Area")[0, 0]
 
         find_triangles(make, self.options.triangles, min(self.loaded.image.GetSpacing()),
-                       self.teller)
+                       self.console)
         return Run(seconds, last.warnings, last.interrupted)
 
 
 # ---- The end of the run ------------------------------------------------------------------------
 
-def write_outputs(run: Segmentation, surface: Any, finished: bool, solids: SolidMaker,
+def write_outputs(run: Segmentation, surface: Any, is_finished: bool, mesher: TetrahedralMesher,
                   reader_memory: float) -> None:
-    """Write all that the options request. Throw Failure, with a line for each file, if not all
-    could be written; those that can be are."""
-    options, teller = run.options, run.teller
+    """Write all outputs. Raise Failure with one line per file that cannot be written."""
+    options, console = run.options, run.console
     filter_ = run.filters.surface
-    reason = report.stop_reason(filter_.GetOutput())
-    remark = "" if finished else f", UNFINISHED: {reason}"
+    reason = geometry.field_text(filter_.GetOutput(), "StopReason")
+    remark = "" if is_finished else f", UNFINISHED: {reason}"
     failures = files.Failures()
     for data in (surface, filter_.GetLevels(), filter_.GetSnapshots()):
         geometry.mark_space(data, run.loaded.world)
     for name in options.surfaces:
-        with failures.collect(), teller.progress(f"Writing {name}") as progress:
-            writing.write_surface(surface, name, remark, solids, teller.warn, progress)
+        with failures.collect(), console.progress(f"Writing {name}") as progress:
+            writing.write_surface(surface, name, remark, mesher, console.warn, progress)
     for name, blocks, prefix in ((options.levels_output, filter_.GetLevels(), "level"),
                                  (options.snapshots, filter_.GetSnapshots(), "snapshot")):
         if name:
             with failures.collect():
                 if name.lower().endswith(".vtm"):
-                    writing.write_blocks(blocks, name, teller.warn)
+                    writing.write_blocks(blocks, name, console.warn)
                 else:
                     writing.write_folder(blocks, name, prefix,
-                                         level_of if prefix == "level" else None, teller.warn)
+                                         level_of if prefix == "level" else None, console.warn)
     if options.history:
         with failures.collect():
             writing.write_table(filter_.GetHistory(), options.history)
     if options.report:
         with failures.collect():
-            files.write_text(report.of_volume(
-                options.volume, run.loaded, run.filters, surface, finished, tuple(run.seconds),
-                reader_memory, solids.last, run.warnings), options.report)
-    failures.throw()
+            files.write_text(report.volume_report(
+                options.volume, run.loaded, run.filters, surface, is_finished, tuple(run.seconds),
+                reader_memory, mesher.last, run.warnings), options.report)
+    failures.raise_all()
 
 
 def level_of(surface: Any) -> int:
-    """The level of a surface; the last block may be that of level -1."""
+    """Return the level of a surface; the last block may be level -1."""
     return int(report.values_of(surface, "Level")[0, 0])
 
 
-def segment_volume(options: Namespace, filters: Filters, teller: Teller) -> int:
-    """Do what the command line requests; return the exit code."""
+def segment_volume(options: Namespace, filters: Filters, console: Console) -> int:
+    """Run the command on a volume. Return the exit code."""
     for name in options.surfaces:
         writing.check_surface_name(name)
     check_files(options, [files.OutputName(name) for name in options.surfaces])
-    loaded = geometry.load_volume(options, filters, teller)
+    loaded = geometry.load_volume(options, filters, console)
     reader_memory = report.peak_memory()
     surface = filters.surface
     component = surface.GetSelectedComponent()
     if options.write_volume:
         image = geometry.image_of(loaded.volume, loaded.volume.array) \
             if loaded.component is not None and component == -1 else loaded.image
-        name_labels(options, loaded.volume, image, teller)
+        name_labels(options, loaded.volume, image, console)
         writing.write_volume(image, options.write_volume)
-    if not wants_surface(options):
+    if not needs_surface(options):
         return DONE
-    probes = geometry.Probes(options, loaded.world, teller)
+    probes = geometry.Probes(options, loaded.world, console)
     hint = "" if surface.IsA("vtkVolumeToSurface") else \
         vtk.vtkVolumeToSurface.HintAtLabels(loaded.image)
     if hint:
-        teller.warn(f"{options.volume}: {hint} (--labels all)")
-    surface.SetSelectedComponent(-1)  # the image has one
-    set_start(options, surface)
-    set_edges(options, loaded.image, surface, teller)
+        console.warn(f"{options.volume}: {hint} (--labels all)")
+    surface.SetSelectedComponent(-1)  # the component is extracted already
+    set_initial_data(options, surface)
+    set_edges(options, loaded.image, surface, console)
     if not has_property(options, "IsoValue") and not has_property(options, "UpperValue"):
-        take_otsu_threshold(loaded, surface, teller)
+        set_otsu_threshold(loaded, surface, console)
     if options.snapshots and not has_property(options, "SnapshotInterval"):
         surface.SetSnapshotInterval(10)
-    messages.hold_signals()
-    run = Segmentation(options, filters, loaded, teller)
+    messages.defer_signals()
+    run = Segmentation(options, filters, loaded, console)
     run.evolve()
     surface.SetSelectedComponent(component)
-    ended: list[str] = []
+    warnings: list[str] = []
     written = surface.GetOutput()
     if options.ends != "closed":
         from .ends import with_ends
-        written = with_ends(written, loaded.image, options.ends, ended)
-    for text in ended:
-        teller.warn(f"{options.volume}: {text}")
-    run.warnings += ended
+        written = with_ends(written, loaded.image, options.ends, warnings)
+    for text in warnings:
+        console.warn(f"{options.volume}: {text}")
+    run.warnings += warnings
     probes.add_to(written)
-    reason = report.stop_reason(surface.GetOutput())
-    finished = reason in ("converged", "limit cycle")
-    solids = make_solids(options, filters, probes, sum(run.seconds))
-    write_outputs(run, written, finished, solids, reader_memory)
-    _tell_end(run, written, solids, reason, finished)
-    return DONE if finished else UNFINISHED
+    reason = geometry.field_text(surface.GetOutput(), "StopReason")
+    is_finished = reason in ("converged", "limit cycle")
+    mesher = make_mesher(options, filters, probes, sum(run.seconds))
+    write_outputs(run, written, is_finished, mesher, reader_memory)
+    _print_summary(run, written, mesher, reason, is_finished)
+    return DONE if is_finished else UNFINISHED
 
 
-def make_solids(options: Namespace, filters: Filters, probes: geometry.Probes,
-                seconds: float) -> SolidMaker:
-    """What makes tetrahedra of surfaces, in the time that --time-limit leaves after `seconds`."""
+def make_mesher(options: Namespace, filters: Filters, probes: geometry.Probes,
+                seconds: float) -> TetrahedralMesher:
+    """Return the mesher. Its time limit is what --time-limit leaves after `seconds`."""
     limit = filters.surface.GetTimeLimit()
     deadline = time.monotonic() + max(limit - seconds, 0.0) if limit > 0 else None
-    return SolidMaker(options.mesher or "", options.maximum_volume or 0.0,
-                      messages.was_interrupted, deadline, probes if probes else None)
+    return TetrahedralMesher(options.mesher or "", options.maximum_volume or 0.0,
+                             messages.was_interrupted, deadline, probes if probes else None)
 
 
-def prints(options: Namespace, names: Sequence[str]) -> bool:
-    """Whether something is written for printers."""
+def is_for_printing(options: Namespace, names: Sequence[str]) -> bool:
     return any(name.lower().endswith(".3mf") for name in names) \
         or (options.format or "").lower() in ("3mf", ".3mf")
 
 
-def _tell_end(run: Segmentation, surface: Any, solids: SolidMaker, reason: str,
-              finished: bool) -> None:
-    teller = run.teller
+def _print_summary(run: Segmentation, surface: Any, mesher: TetrahedralMesher, reason: str,
+                   is_finished: bool) -> None:
+    console = run.console
     iterations = run.filters.surface.GetHistory().GetNumberOfRows()
-    teller.say(f"{surface.GetNumberOfPoints()} vertices after {iterations} iterations: {reason}")
-    teller.say(report.text_of_print(prints(run.options, run.options.surfaces), [surface],
-                                    run.loaded.world.unit))
-    teller.say(report.text_of_solid(solids.last))
-    if not finished:
-        teller.error(f"unfinished ({reason}); the surface as it is was written")
+    console.info(f"{surface.GetNumberOfPoints()} vertices after {iterations} iterations: {reason}")
+    console.info(report.describe_print(is_for_printing(run.options, run.options.surfaces),
+                                       [surface], run.loaded.world.unit))
+    console.info(report.describe_tetrahedra(mesher.last))
+    if not is_finished:
+        console.error(f"unfinished ({reason}): the current surface was written")

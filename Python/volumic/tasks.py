@@ -1,22 +1,21 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces of all labels of a map that is larger than memory, as tasks on crops.
+"""Surfaces of all labels of a label map larger than memory, computed by parallel tasks on crops.
 
     job = Job(volumic.ome_zarr.open("brain.zarr", label="cells"), "meshes")
-    job.run()                                          # a loop
+    job.run()                                          # serial
     job.run(executor.map)                              # concurrent.futures, processes
-    job.run(lambda function, of: client.gather(client.map(function, of)))    # dask.distributed
+    job.run(lambda function, tasks: client.gather(client.map(function, tasks)))     # dask
 
-`count` counts the labels of a block of the map, then `make` makes the surfaces of some labels. A
-task leaves its result in the folder and returns nothing. A job that was killed resumes there, and a
-task that runs twice finds its result.
+Tasks of `count` determine the extents of labels in blocks of the map. Tasks of `make` compute the
+surfaces of a bundle of labels. Tasks write their results to the folder of the job and return
+nothing. An interrupted job resumes, and a repeated task reuses its result.
 
-Labels that lie near each other are a bundle, one task of `make`: a crop of the map with a margin
-about the labels, of which one mesh is made, as of a map of its own. All labels in the crop are in
-the mesh, so that the surfaces of the bundle fit to their neighbours; those of its own labels are
-written. Results are bit-identical for any number of workers, after kills, and whichever labels are
-made. Surfaces of different bundles are made of the same voxels, but do not share triangles. How
-voxels connect that meet at edges only depends on the labels' numbers of voxels in the crop.
+A bundle is a group of nearby labels. Its task crops the map with a margin around them, computes one
+mesh of all labels in the crop, and writes the surfaces of the labels of the bundle. Within a bundle
+adjacent labels share their triangles, across bundles they do not. Results are bit-identical for any
+number of workers, any selection of labels, and after interruptions. The connectivity of voxels that
+share only edges depends on the numbers of voxels of their labels in the crop.
 """
 
 from __future__ import annotations
@@ -42,43 +41,49 @@ from .arrays import Surface
 from .writing.files import HIDDEN, replace_file
 from .writing.surfaces import FORMATS
 
-MARGIN = 4, 6  # of crops: so many standard deviations of the smoothing, and edge lengths
-MOST = 4096  # labels of a bundle, as vtkLabelsToSurfaces makes at most
-BLOCK = 256  # voxels along each axis that are counted at a time, at most
-DETAILS = (1, 2, 3)  # FinestLevel of the coarser levels of detail: edges sqrt(3) times as long
+MARGIN = 4, 6  # of crops, in standard deviations of the smoothing and in edge lengths
+MAXIMUM_LABELS = 4096  # of a bundle, the limit of vtkLabelsToSurfaces
+BLOCK = 256  # maximum size of blocks in voxels
+DETAILS = (1, 2, 3)  # FinestLevel of coarser levels of detail; each has sqrt(3) times longer edges
 PERIODIC = 2  # BoxFaces
 Box = list[tuple[int, int]]  # [begin, end) of x, y and z
 
 
 class Job:
-    """The surfaces of the labels of one map, in one folder.
+    """Computation of the surfaces of the labels of one map, with its results in one folder.
 
     Parameters
     ----------
     source : array-like
-        The map, labels [z, y, x]: `shape`, `dtype` and slices, such as a zarr.Array, a volume of
-        volumic.ome_zarr or a numpy.ndarray. Tasks in other processes get it pickled.
+        Label map [z, y, x] with `shape`, `dtype` and slicing, such as a zarr.Array, a
+        volumic.ome_zarr.Volume or a numpy.ndarray. It is pickled for other processes.
     folder : str
-        Folder of the results, which all workers see. It is made in a folder that exists.
+        Folder of the results, shared by all workers. Its parent must exist.
     spacing, origin : sequence of 3 floats, optional
-        As of volumic.surface (default: those of `source`, if it has them).
+        See volumic.surface (default: those of `source`, if any).
     direction : array_like, optional
+        See volumic.surface.
     only : sequence of ints, optional
-        Labels to make (default: all but BackgroundLabel).
+        Labels to compute (default: all but BackgroundLabel).
     formats : sequence of str, optional
-        `.vtp`, `.ply`, `.stl`: files label-3.vtp. `precomputed` and `multilod_draco`: folders for
-        Neuroglancer, the latter with four levels of detail, compressed.
+        `.vtp`, `.ply` or `.stl`: files such as label-3.vtp. `precomputed` or `multilod_draco`:
+        folders for Neuroglancer, the latter compressed and with four levels of detail.
     nanometers : float, optional
         Length of a world unit, for Neuroglancer (default: that of `source`, or 1).
     bundle : int, optional
-        Voxels of a crop up to which labels that lie near each other are one task. Another number
-        makes other bundles, and other triangles.
+        Maximum number of voxels of the crop of a bundle of several labels. Triangles depend on it.
     most : int, optional
-        Voxels of the largest crop, which bounds the memory. A label that needs a larger crop is
-        refused.
+        Maximum number of voxels of a crop, which bounds memory. A label with a larger crop is an
+        error.
     **properties
-        Those of vtkLabelsToSurfaces. Workers with several tasks at a time share the processors by
-        NumberOfThreads.
+        Properties of vtkLabelsToSurfaces. Set NumberOfThreads if workers share a machine.
+
+    Raises
+    ------
+    TypeError
+        The filter has no such property.
+    ValueError
+        A parameter is invalid, or the folder has results of other settings.
     """
 
     def __init__(self, source: Any, folder: str | os.PathLike[str], *,
@@ -88,53 +93,64 @@ class Job:
                  bundle: int = 1 << 24, most: int = 1 << 29, **properties: Any) -> None:
         arrays.check_properties("vtkLabelsToSurfaces", properties)
         if properties.get("Merge") or properties.get("BoxFaces") == PERIODIC:
-            raise ValueError("Merge and periodic BoxFaces couple labels all over the map; apply "
-                             "volumic.labels to the whole map")
+            raise ValueError("Merge and periodic BoxFaces are not supported for crops; use "
+                             "volumic.labels for the whole map")
         if properties.get("TimeLimit"):
-            raise ValueError("TimeLimit would leave labels unfinished; end the job and restart it")
+            raise ValueError("TimeLimit is not supported for jobs; stop the job and run it again")
         for name in formats:
             if name not in FORMATS and name not in neuroglancer.INFO:
-                raise ValueError(f"'{name}' is no format; there are "
+                raise ValueError(f"'{name}' is not a format; use one of "
                                  + ", ".join([*FORMATS, *neuroglancer.INFO]))
         if "multilod_draco" in formats:
             neuroglancer.draco_encoder()
         if len(source.shape) != 3:
             raise ValueError(f"the map must have three axes, z, y and x, not {len(source.shape)}")
 
-        def given(value: Any, name: str, otherwise: Any) -> Any:
+        def value_of(value: Any, name: str, otherwise: Any) -> Any:
             return getattr(source, name, otherwise) if value is None else value
 
         self.source, self.folder = source, os.path.abspath(folder)
-        self.spacing = [float(length) for length in given(spacing, "spacing", (1, 1, 1))]
-        self.origin = [float(position) for position in given(origin, "origin", (0, 0, 0))]
+        self.spacing = [float(length) for length in value_of(spacing, "spacing", (1, 1, 1))]
+        self.origin = [float(position) for position in value_of(origin, "origin", (0, 0, 0))]
         self.direction = None if direction is None else np.asarray(direction, float).tolist()
         self.only = sorted({int(label) for label in only})
         self.formats = list(formats)
-        self.nanometers = float(given(nanometers, "nanometers", 1))
+        self.nanometers = float(value_of(nanometers, "nanometers", 1))
         self.bundle, self.most, self.properties = min(bundle, most), most, properties
-        self._begin()
+        self._create_folders()
 
-    def _begin(self) -> None:
-        """Make the folders. Throw ValueError if they have results of other settings."""
+    def _create_folders(self) -> None:
+        """Create the folders. Raise ValueError if they have results of other settings."""
         for folder in (*map(self._path, ("counts", "rows")), *self._viewers()):
             os.makedirs(folder, exist_ok=True)
-        free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # without effect on results
-        ours = {"shape": list(self.source.shape), "type": str(self.source.dtype),
-                "spacing": self.spacing, "origin": self.origin, "direction": self.direction,
-                "formats": self.formats, "nanometers": self.nanometers, "bundle": self.bundle,
-                "properties": {name: value for name, value in sorted(self.properties.items())
-                               if name not in free}}
+        free = ("NumberOfThreads", "MemoryLimit", "ScratchDirectory")  # no effect on results
+        settings = {"shape": list(self.source.shape), "type": str(self.source.dtype),
+                    "spacing": self.spacing, "origin": self.origin, "direction": self.direction,
+                    "formats": self.formats, "nanometers": self.nanometers, "bundle": self.bundle,
+                    "properties": {name: value for name, value in sorted(self.properties.items())
+                                   if name not in free}}
         path = self._path("settings.json")
         if not os.path.exists(path):
-            replace_file(path, _json(ours))
-        there = _read(path)
-        for name, value in ours.items():
-            if there.get(name) != value:
-                raise ValueError(f"{self.folder} is of a job with {name} {there.get(name)}, not "
-                                 f"{value}: choose another folder")
+            replace_file(path, _json(settings))
+        stored = _read(path)
+        for name, value in settings.items():
+            if stored.get(name) != value:
+                raise ValueError(f"{self.folder} has results for {name} {stored.get(name)} "
+                                 f"instead of {value}; choose another folder")
 
     def run(self, mapped: Callable[..., Iterable[Any]] = map) -> list[dict[str, Any]]:
-        """Count, make and finish. `mapped(function, tasks)` is what maps: map, executor.map."""
+        """Run all tasks of count and make, then finish.
+
+        Parameters
+        ----------
+        mapped : callable, optional
+            mapped(function, tasks), such as map or executor.map.
+
+        Returns
+        -------
+        list of dict
+            See finish().
+        """
         for step, tasks in ((self.count, self.blocks), (self.make, self.bundles)):
             for _ in mapped(step, tasks()):
                 pass
@@ -143,7 +159,7 @@ class Job:
     # ---- Counting ------------------------------------------------------------------------------
 
     def _grid(self) -> list[Box]:
-        """Boxes of whole chunks that cover the map, each of two voxels or more along an axis."""
+        """Return boxes of whole chunks that cover the map, at least two voxels along each axis."""
         chunks = getattr(self.source, "chunks", None) or (BLOCK,) * 3
         axes = []
         for size, chunk in zip(self.source.shape, chunks):
@@ -154,12 +170,12 @@ class Job:
         return [list(box[::-1]) for box in itertools.product(*axes)]
 
     def blocks(self, part: int = 0, parts: int = 1) -> list[int]:
-        """Return the tasks for `count` that are not done, or the share of one of `parts`."""
+        """Return the pending tasks of `count`, or subset `part` of `parts`."""
         return [number for number in range(part, len(self._grid()), parts)
                 if not os.path.exists(self._path("counts", f"{number}.json"))]
 
     def count(self, block: int) -> None:
-        """Count the voxels of the labels in a block, and find their boxes."""
+        """Count the voxels of the labels in a block, and determine their extents."""
         path = self._path("counts", f"{block}.json")
         if not os.path.exists(path):
             box = self._grid()[block]
@@ -167,7 +183,7 @@ class Job:
             replace_file(path, _json(found))
 
     def boxes(self) -> dict[int, list[int]]:
-        """Return {label: [voxels, first x, last x, first y, ..., last z]} of the whole map."""
+        """Return [voxels, first x, last x, first y, ..., last z] by label, for the whole map."""
         path = self._path("boxes.json")
         if not os.path.exists(path):
             blocks = range(len(self._grid()))
@@ -182,15 +198,16 @@ class Job:
             replace_file(path, _json(sorted((int(label), box) for label, box in whole.items())))
         return _parsed(path, os.stat(path).st_mtime_ns)
 
-    def _check_done(self, due: Sequence[int], tasks: Sequence[int], what: str, done: str) -> None:
-        if due:
-            raise ValueError(f"{self.folder}: {len(due)} of {len(tasks)} {what}s are not {done} "
-                             f"yet, {what} {due[0]} is one")
+    def _check_done(self, pending: Sequence[int], tasks: Sequence[int], what: str, done: str
+                    ) -> None:
+        if pending:
+            raise ValueError(f"{self.folder}: {len(pending)} of {len(tasks)} {what}s are not "
+                             f"{done}, such as {what} {pending[0]}; run all tasks first")
 
     # ---- Making --------------------------------------------------------------------------------
 
     def labels(self) -> list[int]:
-        """Return the labels that get a surface."""
+        """Return the labels to compute."""
         boxes = self.boxes()
         unknown = [label for label in self.only if label not in boxes]
         if unknown:
@@ -199,45 +216,44 @@ class Job:
         return self.only or [label for label in boxes if label != background]
 
     def is_done(self, label: int) -> bool:
-        """Return whether the surface of a label is made."""
+        """Return whether the surface of a label has been computed."""
         return os.path.exists(self._path("rows", f"{label}.json"))
 
     def bundles(self, part: int = 0, parts: int = 1) -> list[list[int]]:
-        """Return the tasks for `make` that are not done, or the share of one of `parts`. Those with
-        the largest crops come first."""
-        wanted, due = set(self.labels()), []
+        """Return the pending tasks of `make`, or subset `part` of `parts`, largest crops first."""
+        requested, pending = set(self.labels()), []
         for box, labels in self._plan()[part::parts]:
-            labels = [label for label in labels if label in wanted and not self.is_done(label)]
+            labels = [label for label in labels if label in requested and not self.is_done(label)]
             if labels and _count(box) > self.most:
                 size = " x ".join(str(end - begin) for begin, end in box)
-                raise ValueError(f"label {labels[0]} and its margin are {size} voxels, more than "
-                                 f"most={self.most}: allow more, or exclude the label by `only`")
-            due += [labels] * bool(labels)
-        return due
+                raise ValueError(f"label {labels[0]} requires a crop of {size} voxels, more than "
+                                 f"most={self.most}; increase most, or exclude the label by `only`")
+            pending += [labels] * bool(labels)
+        return pending
 
     def make(self, labels: Sequence[int]) -> None:
-        """Make the surfaces of labels, in the crops of their bundles."""
-        wanted = set(labels)
+        """Compute the surfaces of labels in the crops of their bundles."""
+        requested = set(labels)
         for box, bundle in self._plan():
-            due = [label for label in bundle if label in wanted and not self.is_done(label)]
-            if due:
-                self._make(due, box, bundle)
+            pending = [label for label in bundle if label in requested and not self.is_done(label)]
+            if pending:
+                self._make(pending, box, bundle)
 
-    def _make(self, due: Sequence[int], box: Box, bundle: Sequence[int]) -> None:
+    def _make(self, pending: Sequence[int], box: Box, bundle: Sequence[int]) -> None:
         voxels = self._read(box)
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # rows and field data have them
+            warnings.simplefilter("ignore")  # stored in rows and field data
             made = [arrays.labels(
                 voxels, bundle, spacing=self.spacing, origin=self.origin, direction=self.direction,
                 start=[begin for begin, _ in box], **{**self.properties, **settings})
                 for settings in self._details()]
-        for label in due:
+        for label in pending:
             self._write(label, [level[label] for level in made])
             row = _json(self._row(label, made[0][label]))
-            replace_file(self._path("rows", f"{label}.json"), row)  # Now it is done.
+            replace_file(self._path("rows", f"{label}.json"), row)  # marks it as done
 
     def _details(self) -> list[dict[str, Any]]:
-        """Properties of each level of detail, the finest first."""
+        """Return the properties of each level of detail, the finest first."""
         finest = max(0, self.properties.get("FinestLevel", 0))
         length = self.properties.get("EdgeLength", 0)
         coarser = DETAILS if "multilod_draco" in self.formats else ()
@@ -245,11 +261,11 @@ class Job:
                       for more in coarser)]
 
     def finish(self) -> list[dict[str, Any]]:
-        """Write labels.csv and `info` for viewers, and remove what killed workers left. All tasks
-        must be done, and none running. Return a dict for each label."""
+        """Write labels.csv and the `info` files of viewers, and remove temporary files. All tasks
+        must be done. Return one dict per label."""
         labels = self.labels()
-        due = [label for label in labels if not self.is_done(label)]
-        self._check_done(due, labels, "label", "made")
+        pending = [label for label in labels if not self.is_done(label)]
+        self._check_done(pending, labels, "label", "computed")
         rows = [_read(self._path("rows", f"{label}.json")) for label in labels]
         table = io.StringIO()
         if rows:
@@ -267,18 +283,17 @@ class Job:
     # ---- Crops ---------------------------------------------------------------------------------
 
     def _plan(self) -> list[tuple[Box, list[int]]]:
-        """Return the crop and the labels of each bundle, the largest crops first, also of labels
-        that are not chosen. The background is the last bundle."""
+        """Return crop and labels of each bundle, largest crops first. The background is last."""
         path = self._path("bundles.json")
         if not os.path.exists(path):
             background, margin = self.properties.get("BackgroundLabel", 0), self._margin()
             bundles: list[tuple[Box, list[int]]] = []
             for label in sorted(self.boxes(), key=lambda label: (
                     label == background, self._order(label))):
-                box = self._about(label, margin)
-                together = _around(box, bundles[-1][0]) if bundles else box
+                box = self._extent(label, margin)
+                together = _union(box, bundles[-1][0]) if bundles else box
                 if (bundles and label != background and _count(together) <= self.bundle
-                        and len(bundles[-1][1]) < MOST):
+                    and len(bundles[-1][1]) < MAXIMUM_LABELS):
                     bundles[-1] = (together, bundles[-1][1] + [label])
                 else:
                     bundles.append((box, [label]))
@@ -287,7 +302,7 @@ class Job:
         return list(_parsed(path, os.stat(path).st_mtime_ns).values())
 
     def _margin(self) -> list[int]:
-        """Voxels along each axis beyond which others do not matter to a surface."""
+        """Return the margin of crops along each axis, in voxels."""
         filter_, smallest = filters.vtkLabelsToSurfaces(), min(self.spacing)
         deviation = max(smallest * self.properties.get("Smoothing", filter_.GetSmoothing()),
                         0.625 * max(self.spacing))
@@ -297,14 +312,14 @@ class Job:
         reach = MARGIN[0] * deviation + MARGIN[1] * edge
         return [math.ceil(reach / length) for length in self.spacing]
 
-    def _about(self, label: int, margin: Sequence[int]) -> Box:
-        """The voxels of a label, and a margin of them."""
+    def _extent(self, label: int, margin: Sequence[int]) -> Box:
+        """Return the extent of a label with a margin."""
         _, *box = self.boxes()[label]
         return [(max(0, first - more), min(size, last + 1 + more)) for first, last, more, size in
                 zip(box[::2], box[1::2], margin, self.source.shape[::-1])]
 
     def _order(self, label: int) -> int:
-        """Morton order of the centers: labels that follow each other lie near each other."""
+        """Return the Morton order of the centre of a label, by which nearby labels are grouped."""
         _, *box = self.boxes()[label]
         center = [(first + last) // 64 for first, last in zip(box[::2], box[1::2])]
         return sum((center[axis] >> bit & 1) << (3 * bit + axis)
@@ -319,12 +334,11 @@ class Job:
         return os.path.join(self.folder, "job", *names)
 
     def _viewers(self) -> list[str]:
-        """The folders for Neuroglancer."""
         return [os.path.join(self.folder, name) for name in self.formats
                 if name in neuroglancer.INFO]
 
     def _write(self, label: int, levels: Sequence[Surface]) -> None:
-        """Write the surface of a label, the first of its levels of detail, in all formats."""
+        """Write the surface of a label in all formats. `levels` are its levels of detail."""
         surface, made = levels[0], {}
         for name in self.formats if len(surface.triangles) else ():
             if name == "precomputed":
@@ -341,18 +355,18 @@ class Job:
 
     def _row(self, label: int, surface: Surface) -> dict[str, Any]:
         names = ("Voxels", "FirstX", "LastX", "FirstY", "LastY", "FirstZ", "LastZ")
-        facts = ("Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
-                 "MissedVoxels", "StopReason")
+        fields = ("Volume", "Area", "NumberOfComponents", "Genus", "VolumeError", "WrongVoxels",
+                  "MissedVoxels", "StopReason")
         return {"Label": label, **dict(zip(names, self.boxes()[label])),
                 "Points": len(surface.points), "Triangles": len(surface.triangles),
-                **{name: surface.report.get(name) for name in facts}, **arrays.quality(surface)}
+                **{name: surface.report.get(name) for name in fields}, **arrays.quality(surface)}
 
 
 def _count(box: Box) -> int:
     return math.prod(end - begin for begin, end in box)
 
 
-def _around(one: Box, other: Box) -> Box:
+def _union(one: Box, other: Box) -> Box:
     return [(min(a[0], b[0]), max(a[1], b[1])) for a, b in zip(one, other)]
 
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""--triangles: the tolerance or the edge length with which surfaces have a number of triangles."""
+"""--triangles: search for the tolerance or edge length that yields a number of triangles."""
 
 from __future__ import annotations
 
@@ -8,21 +8,19 @@ import math
 from collections.abc import Callable
 
 from .errors import Failure
-from .messages import Teller, number_text, was_interrupted
+from .messages import Console, number_text, was_interrupted
 
-TRIES = 12  # runs at most
-NEAR = 1.1  # ratio of triangles that is near enough
+MAXIMUM_RUNS = 12
+MAXIMUM_RATIO = 1.1  # between the numbers of triangles, found and target
 
 Make = Callable[[float, float], "tuple[int, float]"]
 
 
-def find_triangles(make: Make, wanted: int, unit: float, teller: Teller) -> None:
-    """Make surfaces until they have about `wanted` triangles: with a tolerance, or, where more are
-    wanted than uniform edges have or no tolerance leaves so few, with an edge length.
-
-    `make(edge length, tolerance)`, in world units, makes the surfaces and returns their triangles
-    and area; unit is the smallest voxel distance. Throw Failure where no run comes near.
-    """
+def find_triangles(make: Make, target: int, unit: float, console: Console) -> None:
+    """Compute surfaces with about `target` triangles. Search for a tolerance, or, if uniform edges
+    yield too few triangles or no tolerance yields so few, for an edge length. make(edge length,
+    tolerance) returns the number of triangles and their area, in world units; `unit` is the
+    smallest voxel spacing. Raise Failure if the search fails."""
     tried: list[int] = []
 
     def run(edge_length: float, tolerance: float) -> tuple[int, float]:
@@ -31,55 +29,55 @@ def find_triangles(make: Make, wanted: int, unit: float, teller: Teller) -> None
         except Failure:
             if edge_length == 0.0:
                 raise
-            found = 0, 0.0  # no pyramid of this image has such edges
+            found = 0, 0.0  # the image allows no such edges
         tried.append(found[0])
         if found[0] and not was_interrupted():
-            teller.say((f"edge length {number_text(edge_length)}" if edge_length else
-                        f"tolerance {number_text(tolerance)}") + f": {found[0]} triangles")
+            console.info((f"edge length {number_text(edge_length)}" if edge_length else
+                          f"tolerance {number_text(tolerance)}") + f": {found[0]} triangles")
         return found
 
-    def ended() -> bool:
-        return was_interrupted() or wanted / NEAR < tried[-1] < NEAR * wanted
+    def is_done() -> bool:
+        return was_interrupted() or target / MAXIMUM_RATIO < tried[-1] < MAXIMUM_RATIO * target
 
     uniform, area = run(0.0, 0.0)
-    if ended() or uniform == 0 or (uniform > wanted and _find_tolerance(
-            run, ended, uniform, wanted, 0.2 * unit)):
+    if is_done() or uniform == 0 or (uniform > target and _find_tolerance(
+            run, is_done, uniform, target, 0.2 * unit)):
         return
-    # The number of triangles goes with the inverse square of the edge length.
+    # The number of triangles is proportional to the inverse square of the edge length.
     length = math.sqrt(4 * area / (math.sqrt(3) * uniform))
-    edge = length * math.sqrt(uniform / wanted)
-    for _ in range(TRIES // 2):
+    edge = length * math.sqrt(uniform / target)
+    for _ in range(MAXIMUM_RUNS // 2):
         now, _ = run(_rounded(edge), 0.0)
-        if ended():
+        if is_done():
             return
         length, edge = (length, (length + edge) / 2) if now == 0 else (
-            edge, edge * math.sqrt(now / wanted))
-    nearest = min(filter(None, tried), key=lambda found: abs(math.log(found / wanted)))
-    raise Failure(f"--triangles {wanted}: no tolerance and no edge length gives about so many; the "
-                  f"nearest surface has {nearest}. Choose a number nearer to that")
+            edge, edge * math.sqrt(now / target))
+    nearest = min(filter(None, tried), key=lambda found: abs(math.log(found / target)))
+    raise Failure(f"--triangles {target}: no tolerance or edge length yields this number; the "
+                  f"nearest is {nearest}. Choose a number closer to it")
 
 
-def _find_tolerance(run: Make, ended: Callable[[], bool], uniform: int, wanted: int,
+def _find_tolerance(run: Make, is_done: Callable[[], bool], uniform: int, target: int,
                     tolerance: float) -> bool:
-    """Search from a tolerance on; return whether the last run ended the search."""
+    """Search for a tolerance. Return whether the last run met the target or was interrupted."""
     fine: tuple[float, int] = (0.0, uniform)
     coarse: tuple[float, int] | None = None
-    for _ in range(TRIES // 2):
+    for _ in range(MAXIMUM_RUNS // 2):
         now, _ = run(0.0, tolerance)
-        if ended():
+        if is_done():
             return True
-        if now < wanted:
+        if now < target:
             coarse = (tolerance, max(now, 1))
         elif now > 0.98 * fine[1]:
-            return False  # no tolerance leaves fewer
+            return False  # larger tolerances hardly reduce the number
         else:
             fine = (tolerance, now)
         if coarse is None:
             tolerance *= 2
         else:
-            share = math.log(fine[1] / wanted) / math.log(fine[1] / coarse[1])
-            least = fine[0] or coarse[0] / 4
-            tolerance = _rounded(least * (coarse[0] / least) ** min(max(share, 0.1), 0.9))
+            fraction = math.log(fine[1] / target) / math.log(fine[1] / coarse[1])
+            lowest = fine[0] or coarse[0] / 4
+            tolerance = _rounded(lowest * (coarse[0] / lowest) ** min(max(fraction, 0.1), 0.9))
     return False
 
 

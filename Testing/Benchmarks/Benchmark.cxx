@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Runs us and what else there is, measures and judges both; benchmark.py, which starts this
- * program, makes the tables.
+ * Run Volumic or a peer on a volume, measure the run and judge its surface. benchmark.py starts
+ * this program and prints the tables.
  *
  *     Benchmark run=NAME volume=FILE.vti iso=VALUE [NAME=VALUE]...
  *
@@ -47,11 +47,11 @@ double PeakMegabytes()
   return 1024e-6 * kilobytes;
 }
 
-/** The peak starts again from what is resident now; false where it cannot. */
-bool StartPeakAgain()
+/** Reset the peak to the current resident memory; return false if the system cannot. */
+bool ResetPeak()
 {
 #if defined(__GLIBC__)
-  malloc_trim(0); // memory that was freed before must not serve what is measured
+  malloc_trim(0); // freed memory must not be reused by the measured work
 #endif
   std::ofstream refs("/proc/self/clear_refs");
   refs << "5";
@@ -69,7 +69,7 @@ Options::Options(const std::vector<std::string>& words)
     const std::size_t sign = word.find('=');
     if (sign == std::string::npos)
     {
-      throw std::invalid_argument(word + " is not NAME=VALUE");
+      throw std::invalid_argument("Argument " + word + " is not of the form NAME=VALUE");
     }
     this->Values[word.substr(0, sign)] = word.substr(sign + 1);
   }
@@ -113,7 +113,7 @@ void Measure(const std::function<void()>& work, int repetitions, Figures& figure
 {
   double seconds = std::numeric_limits<double>::infinity();
   double processor = seconds;
-  const bool hasPeak = StartPeakAgain();
+  const bool hasPeak = ResetPeak();
   for (int i = 0; i < repetitions; ++i)
   {
     const auto begin = std::chrono::steady_clock::now();
@@ -137,7 +137,7 @@ vtkSmartPointer<vtkImageData> ReadImage(const std::string& file)
   vtkNew<vtkXMLImageDataReader> reader;
   if (!reader->CanReadFile(file.c_str()))
   {
-    throw std::runtime_error(file + ": not a readable volume");
+    throw std::runtime_error("Cannot read the volume " + file);
   }
   reader->SetFileName(file.c_str());
   reader->Update();
@@ -149,7 +149,7 @@ vtkSmartPointer<vtkImageData> ReadImage(const std::string& file)
   }
   if (!points->GetScalars() || points->GetScalars()->GetNumberOfComponents() != 1)
   {
-    throw std::runtime_error(file + ": has no point scalars of one component");
+    throw std::runtime_error(file + " has no point scalars of one component");
   }
   return image;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** What the parts of the program Benchmark share: see Benchmark.cxx. */
+/** Declarations shared by the sources of the program Benchmark; see Benchmark.cxx. */
 
 #ifndef volumicBenchmark_h
 #define volumicBenchmark_h
@@ -20,7 +20,7 @@
 namespace volumic::bench
 {
 
-/** The words NAME=VALUE of the command line. */
+/** The arguments NAME=VALUE of the command line. */
 class Options
 {
 public:
@@ -34,7 +34,7 @@ private:
   std::map<std::string, std::string> Values;
 };
 
-/** Numbers and texts by name; written in lines "@NAME VALUE". */
+/** Numbers and texts by name, written as lines "@NAME VALUE". */
 class Figures
 {
 public:
@@ -46,34 +46,34 @@ private:
   std::map<std::string, std::string> Values;
 };
 
-/** Sets Seconds and ProcessorSeconds, the fastest of the repetitions, and PeakMegabytes, what the
-    process had resident at most. */
+/** Measure `work`: set Seconds and ProcessorSeconds of the fastest repetition, and PeakMegabytes,
+    the peak resident memory of the process. */
 void Measure(const std::function<void()>& work, int repetitions, Figures& figures);
 
-/** A .vti with scalars of one component. */
+/** Read a .vti with scalars of one component. */
 vtkSmartPointer<vtkImageData> ReadImage(const std::string& file);
 
-/** What a peer does, which is measured, and then what it made. The image has to live as long. */
+/** The measured work of a peer, and its result. The image must outlive the job. */
 struct Job
 {
   std::function<void()> Work;
   std::function<support::TriangleSurface()> Result;
 };
 
-/** Its triangles without points that no triangle has: they must not count as reached. */
+/** Convert to triangles without unused points, which must not count as reached. */
 support::TriangleSurface TrianglesOf(vtkPolyData* surface);
 
-/** A job whose work makes a poly data. */
+/** Return a job whose work makes a poly data. */
 Job PolyDataJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make);
 
 vtkSmartPointer<vtkPolyData> FlyingEdges(vtkImageData* image, double isoValue);
 
-/** CGAL's isotropic_remeshing in 3 iterations of what `make` makes. */
+/** Return a job that remeshes the output of `make`: CGAL's isotropic_remeshing, 3 iterations. */
 Job RemeshingJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make, double edgeLength);
 
-/** CGAL's make_surface_mesh on the trilinear field of an image in air: angles of at least 30
-    degrees, surface Delaunay balls of at most `radius`. It starts from a voxel beside the largest
-    component. */
+/** Return a job that runs CGAL's make_surface_mesh on the trilinear field of an image with a
+    background border: angles of at least 30 degrees, surface Delaunay balls of at most `radius`. It
+    starts from a voxel beside the largest component. */
 Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double radius);
 
 void RunSurface(const Options& options);

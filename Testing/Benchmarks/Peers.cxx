@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What VTK and CGAL make surfaces with.
+// Surface generators of VTK and CGAL.
 
 #include "Benchmark.h"
 
@@ -36,7 +36,7 @@ using Triangulation = CGAL::Surface_mesh_default_triangulation_3;
 using Traits = Triangulation::Geom_traits;
 using Point = Traits::Point_3;
 
-/** The mesh must have no garbage. */
+/** Convert a mesh without garbage. */
 support::TriangleSurface ToSurface(const Mesh& mesh)
 {
   support::TriangleSurface surface;
@@ -58,7 +58,7 @@ support::TriangleSurface ToSurface(const Mesh& mesh)
   return surface;
 }
 
-/** As it is where it is manifold; else cut where it is not. */
+/** Convert to a mesh; cut the surface where it is not manifold. */
 void Fill(const support::TriangleSurface& surface, Mesh& mesh)
 {
   std::vector<Kernel::Point_3> points;
@@ -79,8 +79,8 @@ void Fill(const support::TriangleSurface& surface, Mesh& mesh)
 }
 
 //------------------------------------------------------------------------------
-/** The trilinear field of the image, less the iso-value, negative in the object. Outside the image
-    is air. Float voxels, or the mesher would be compiled for each type. */
+/** The trilinear field of the image minus the iso-value, negative in the object and 1 outside the
+    image. Voxels are float, so that the mesher is compiled for one type only. */
 class ImplicitField
 {
 public:
@@ -98,28 +98,28 @@ public:
 
   double operator()(const Point& p) const
   {
-    const double place[3] = { p.x() / this->Step[0], p.y() / this->Step[1], p.z() / this->Step[2] };
+    const double index[3] = { p.x() / this->Step[0], p.y() / this->Step[1], p.z() / this->Step[2] };
     int corner[3];
-    double share[3];
+    double t[3];
     for (int a = 0; a < 3; ++a)
     {
-      if (!(place[a] >= 0.0 && place[a] <= this->Size[a] - 1))
+      if (!(index[a] >= 0.0 && index[a] <= this->Size[a] - 1))
       {
         return 1.0;
       }
-      corner[a] = std::min(static_cast<int>(place[a]), this->Size[a] - 2);
-      share[a] = place[a] - corner[a];
+      corner[a] = std::min(static_cast<int>(index[a]), this->Size[a] - 2);
+      t[a] = index[a] - corner[a];
     }
     const std::ptrdiff_t row = this->Size[0], plane = row * this->Size[1];
     const float* v = this->Values->data() + corner[2] * plane + corner[1] * row + corner[0];
-    const auto along = [&share](int a, double x, double y) { return x + share[a] * (y - x); };
+    const auto along = [&t](int a, double x, double y) { return x + t[a] * (y - x); };
     const auto inPlane = [&](const float* w)
     { return along(1, along(0, w[0], w[1]), along(0, w[row], w[row + 1])); };
     return this->IsoValue - along(2, inPlane(v), inPlane(v + plane));
   }
 
-  /** A voxel of the object at a place where the trilinear field crosses the iso-value. */
-  Point VoxelBeside(const double place[3]) const
+  /** Return a voxel of the object beside a position where the trilinear field is the iso-value. */
+  Point VoxelBeside(const double position[3]) const
   {
     Point voxel(0, 0, 0);
     for (const bool isUp : { false, true })
@@ -127,8 +127,8 @@ public:
       double corner[3];
       for (int a = 0; a < 3; ++a)
       {
-        const double at = place[a] / this->Step[a], near = std::round(at);
-        // On an edge of the grid two of the three are whole numbers, but for their rounding.
+        const double at = position[a] / this->Step[a], near = std::round(at);
+        // On a grid edge two of the three indices are integers, up to rounding.
         corner[a] = this->Step[a] * (std::abs(at - near) < 1e-3 ? near : std::floor(at) + isUp);
       }
       const Point end(corner[0], corner[1], corner[2]);
@@ -137,7 +137,7 @@ public:
     return voxel;
   }
 
-  /** Of a sphere around any point in the image that encloses all of it. */
+  /** Return the radius of a sphere around any point of the image that encloses the image. */
   double EnclosingRadius() const
   {
     return 1.1 *
@@ -197,11 +197,11 @@ Job RemeshingJob(const std::function<vtkSmartPointer<vtkPolyData>()>& make, doub
 
 Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double radius)
 {
-  // With CGAL's default precision, a share of the enclosing sphere, vertices would be off by tenths
-  // of a voxel.
+  // CGAL's default precision is relative to the enclosing sphere: errors would be tenths of a
+  // voxel.
   constexpr double precision = 0.03;
   const auto mesh = std::make_shared<Mesh>();
-  // Where the object is, which the user of this mesher has to know, is found before.
+  // A point of the object, which users of this mesher provide, is found outside the measured work.
   const ImplicitField field(image, isoValue);
   vtkNew<vtkStaticPointLocator> points;
   points->SetDataSet(largest);

@@ -5,11 +5,11 @@
 //
 //     run=us | flat | flying | smoothed | remeshed | mesher
 //     volume=FILE.vti iso=VALUE metric=0|1 threads=N repetitions=N
-//     edge=LENGTH radius=R    what peers are told of ours
+//     edge=LENGTH radius=R    resolution of the peers
 //
-// Peers get the volume with a voxel of air around it. The object is bright. Lengths are those of
-// the metric (of level 0, where a level is spoken of) with the smallest distance of two voxels as
-// 1; fits and radius ratios are told in both metrics.
+// Peers get the volume with a border of one background voxel. The object is bright. Lengths are
+// those of the metric (in rows of a level: of level 0), in units of the smallest voxel distance.
+// Distances to the isosurface and radius ratios are reported in both metrics.
 
 #include "Benchmark.h"
 
@@ -43,7 +43,7 @@ struct Volume
   bool IsWorld; ///< the metric
 };
 
-/** Distances of voxels, the smallest one 1; all 1 unless those of the world are asked for. */
+/** Return the voxel distances in units of the smallest one; all 1 in the voxel metric. */
 Steps StepsOf(vtkImageData* image, bool isWorld)
 {
   Steps steps;
@@ -68,7 +68,7 @@ TriangleSurface Stretched(TriangleSurface surface, const Steps& factors, bool is
   return surface;
 }
 
-vtkSmartPointer<vtkImageData> InAir(vtkImageData* image)
+vtkSmartPointer<vtkImageData> Padded(vtkImageData* image)
 {
   const int* extent = image->GetExtent();
   vtkNew<vtkImageConstantPad> pad;
@@ -80,7 +80,7 @@ vtkSmartPointer<vtkImageData> InAir(vtkImageData* image)
   return pad->GetOutput();
 }
 
-/** The voxels from index 0, place 0 on, in the steps. */
+/** Return the voxels with extent and origin 0 and these distances. */
 vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const Steps& steps)
 {
   auto result = vtkSmartPointer<vtkImageData>::New();
@@ -91,7 +91,7 @@ vtkSmartPointer<vtkImageData> InSteps(vtkImageData* image, const Steps& steps)
 }
 
 //------------------------------------------------------------------------------
-/** A number of its field data; 0 where there is none. */
+/** Return a value of the field data; 0 if the array is missing. */
 double Field(vtkPolyData* surface, const char* name)
 {
   vtkDataArray* array = surface->GetFieldData()->GetArray(name);
@@ -103,8 +103,7 @@ vtkImageData* LevelOf(vtkImagePyramid* pyramid, unsigned int level)
   return vtkImageData::SafeDownCast(pyramid->GetOutput()->GetBlock(level));
 }
 
-/** Sets what the surface is by itself, in its units. @param delta 0 where there are no bounds to
-    hold */
+/** Set the figures of the surface alone, in its units. @param delta 0 if it has no edge bounds */
 void SetVerdict(
   const TriangleSurface& surface, double delta, const std::string& prefix, Figures& figures)
 {
@@ -132,23 +131,23 @@ void SetVerdict(
   }
 }
 
-/** How it fits the image in air, in whose index coordinates it is, in both metrics. */
-void SetFit(const TriangleSurface& surface, vtkImageData* inAir, double isoValue,
+/** Set how a surface, in index coordinates of the padded image, fits it, in both metrics. */
+void SetFit(const TriangleSurface& surface, vtkImageData* padded, double isoValue,
   const std::string& prefix, Figures& figures)
 {
   vtkNew<vtkImageCast> cast;
-  cast->SetInputData(inAir);
+  cast->SetInputData(padded);
   cast->SetOutputScalarTypeToFloat();
   cast->Update();
   support::JudgedVolume volume;
   volume.Values = static_cast<const float*>(cast->GetOutput()->GetScalarPointer());
-  inAir->GetDimensions(volume.Size.data());
+  padded->GetDimensions(volume.Size.data());
   volume.IsoValue = isoValue;
   figures.Set(prefix + "Reach", support::JudgeReach(surface, volume).Share);
   for (const bool isWorld : { false, true })
   {
     const std::string metric = prefix + (isWorld ? "World" : "Voxels");
-    volume.Spacing = StepsOf(inAir, isWorld);
+    volume.Spacing = StepsOf(padded, isWorld);
     const support::IsoDistanceVerdict distance = support::JudgeIsoDistance(surface, volume);
     figures.Set(metric + "DistanceAtVertices", distance.MeanAtVertices);
     figures.Set(metric + "DistanceAtCentroids", distance.MeanAtCentroids);
@@ -191,7 +190,7 @@ Job PeerJob(const Options& options, vtkImageData* image, double iso)
   const auto found = jobs.find(options.Text("run"));
   if (found == jobs.end())
   {
-    throw std::invalid_argument("no run " + options.Text("run") + " in this build");
+    throw std::invalid_argument("Unknown run " + options.Text("run"));
   }
   return found->second();
 }
@@ -200,22 +199,22 @@ void MeasurePeer(const Volume& volume, const Options& options, Figures& figures)
 {
   vtkSMPTools::Initialize(1);
   const Steps steps = StepsOf(volume.Image, volume.IsWorld);
-  const vtkSmartPointer<vtkImageData> inAir = InAir(volume.Image);
-  const vtkSmartPointer<vtkImageData> image = InSteps(inAir, steps);
+  const vtkSmartPointer<vtkImageData> padded = Padded(volume.Image);
+  const vtkSmartPointer<vtkImageData> image = InSteps(padded, steps);
   const Job job = PeerJob(options, image, volume.IsoValue);
   Measure(job.Work, options.Integer("repetitions", 1), figures);
   const TriangleSurface surface = job.Result();
   if (surface.Triangles.empty())
   {
-    throw std::runtime_error("no surface");
+    throw std::runtime_error("The surface is empty");
   }
   SetVerdict(surface, 0.0, "", figures);
-  SetFit(Stretched(surface, steps, true), inAir, volume.IsoValue, "", figures);
+  SetFit(Stretched(surface, steps, true), padded, volume.IsoValue, "", figures);
 }
 
 //------------------------------------------------------------------------------
-/** The coarsest level where there is still something of the object: the filter refuses to start
-    from one where all of it has vanished, as thin things do. */
+/** Return the coarsest level that shows the object. The filter reports an error if it starts at a
+    level where all of the object has vanished, as thin objects do. */
 int CoarsestLevelWithObject(const Volume& volume)
 {
   vtkNew<vtkImagePyramid> pyramid;
@@ -229,7 +228,7 @@ int CoarsestLevelWithObject(const Volume& volume)
   return static_cast<int>(level);
 }
 
-/** What does not depend on the machine: sums over the rows of the history. */
+/** Set sums over the rows of the history, which are independent of the machine. */
 void SetEfforts(vtkTable* history, Figures& figures)
 {
   std::map<std::string, double> sums;
@@ -241,7 +240,7 @@ void SetEfforts(vtkTable* history, Figures& figures)
       { std::string(), "level." + std::to_string(static_cast<int>(value("Level"))) + "." })
     {
       sums[prefix + "Iterations"] += 1.0;
-      sums[prefix + "Visits"] += value("ActiveVertices");
+      sums[prefix + "Updates"] += value("ActiveVertices");
       sums[prefix + "Edits"] += value("Splits") + value("Collapses") + value("Flips");
       sums[prefix + "Joins"] += value("Merges") + value("Cuts");
     }
@@ -261,8 +260,8 @@ void JudgeLevel(vtkPolyData* surface, vtkImageData* level, const Volume& volume,
   SetVerdict(Stretched(support::ToTriangleSurface(surface, volume.Image),
                StepsOf(volume.Image, volume.IsWorld)),
     Field(surface, "Delta") / unit, prefix, figures);
-  const vtkSmartPointer<vtkImageData> inAir = InAir(level);
-  SetFit(support::ToTriangleSurface(surface, inAir), inAir, volume.IsoValue, prefix, figures);
+  const vtkSmartPointer<vtkImageData> padded = Padded(level);
+  SetFit(support::ToTriangleSurface(surface, padded), padded, volume.IsoValue, prefix, figures);
 }
 
 void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
@@ -289,7 +288,7 @@ void MeasureOurs(const Volume& volume, const Options& options, Figures& figures)
     options.Integer("repetitions", 1), figures);
   if (deformable->GetOutput()->GetNumberOfPoints() == 0)
   {
-    throw std::runtime_error("no surface, see the filter's message");
+    throw std::runtime_error("The surface is empty. See the error message of the filter");
   }
   SetEfforts(deformable->GetHistory(), figures);
   vtkMultiBlockDataSet* levels = deformable->GetLevels();

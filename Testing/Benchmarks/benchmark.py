@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Measures us beside what else there is, and prints the tables of Documentation/measured.md and what
-became of the targets. `benchmark.py TABLE --help` tells of each table.
+"""Run Volumic and its peers and print the tables of Documentation/measured.md and the targets.
+`benchmark.py TABLE --help` describes each table.
 
-Exit code: 0 all was run (targets may be missed), 1 a run failed, 2 the command line is wrong.
+Exit code: 0 if all runs succeeded (targets may be missed), 1 if a run failed, 2 for wrong options.
 """
 
 import argparse
@@ -14,7 +14,7 @@ import sys
 TABLES = {
     "pyramid": "vtkImagePyramid and its peer",
     "surface": "vtkDeformableSurface and its peers",
-    "command": "volumic with sizes and threads",
+    "command": "the command volumic, with image sizes and threads",
     "interfaces": "one mesh of all labels of a map, and its peers"}
 
 
@@ -23,16 +23,16 @@ def main():
     if name not in TABLES:
         print(__doc__ + "\nTables:\n" + "".join(f"  {n:<12}{text}\n" for n, text in TABLES.items()))
         return 2
-    table = importlib.import_module(name)  # only what is asked for, as each wants other packages
+    table = importlib.import_module(name)  # imported on demand: each needs other packages
     parser = argparse.ArgumentParser(
         prog=f"benchmark.py {name}", description=table.__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--program", default="Benchmark", help="the program Benchmark")
-    parser.add_argument("--csv", metavar="FILE.csv", help="all figures")
+    parser.add_argument("--program", default="Benchmark", help="path of the program Benchmark")
+    parser.add_argument("--csv", metavar="FILE.csv", help="write all figures to this file")
     table.add_options(parser)
     options, options.rest = parser.parse_known_args(sys.argv[2:])
     if options.rest and name != "command":
-        parser.error("unknown: " + " ".join(options.rest))
+        parser.error("unknown arguments: " + " ".join(options.rest))
     return table.measure(options)
 
 

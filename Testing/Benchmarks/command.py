@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command `volumic` on one volume, with each size and number of threads: how cost grows, and
-what threads gain. Reading and writing are included; surfaces must be the same files for any number of
-threads. Options that are not known here are volumic's."""
+"""Time and memory of the command `volumic` on one volume, for each size and number of threads.
+Reading and writing are included. The files of the surfaces must be identical for any number of
+threads. Unknown options are passed to volumic."""
 
 import csv
 import hashlib
@@ -18,22 +18,22 @@ from tables import Figures, finish, print_figures, print_targets, ratio, say, ti
 
 COLUMNS = {
     "Seconds": "seconds", "ProcessorSeconds": "processor s", "PeakMegabytes": "MB at the peak",
-    "Vertices": "vertices", "MillionSeconds": "s a million", "Visits": "visits, level 0",
-    "Edits": "edits, level 0", "Gain": "gain", "Same": "same file"}
+    "Vertices": "vertices", "MillionSeconds": "s / million", "Updates": "updates, level 0",
+    "Edits": "edits, level 0", "Gain": "speed-up", "Same": "same file"}
 
 
 def add_options(parser):
-    parser.add_argument("volume", help="what volumic reads; .vti where --sizes resample it")
+    parser.add_argument("volume", help="volume that volumic reads; .vti if --sizes resamples it")
     parser.add_argument("--volumic", default="volumic", metavar="PROGRAM")
     parser.add_argument("--sizes", default="0", metavar="LIST",
-                        help="as many voxels as N^3 has; 0: as it is (0)")
-    parser.add_argument("--threads", default="1,2", metavar="LIST", help="(1,2)")
-    parser.add_argument("--repetitions", type=int, default=1, help="by turns; medians")
-    parser.add_argument("--suffix", default=".vtp", help="of the surfaces (.vtp)")
+                        help="resample to N^3 voxels; 0: original size (default: 0)")
+    parser.add_argument("--threads", default="1,2", metavar="LIST", help="(default: 1,2)")
+    parser.add_argument("--repetitions", type=int, default=1, help="in turns; medians are reported")
+    parser.add_argument("--suffix", default=".vtp", help="file format of the surfaces (default: .vtp)")
 
 
 def resample(volume, size, output):
-    """Linearly, the voxels at the border where they were; uncompressed."""
+    """Resample linearly, keep the positions of border voxels, and write without compression."""
     reader, resize, writer = vtkXMLImageDataReader(), vtkImageResize(), vtkXMLImageDataWriter()
     reader.SetFileName(volume)
     reader.Update()
@@ -69,12 +69,12 @@ def run(options, folder, volume, threads):
         return sum(float(row[column]) for row in rows for column in columns) / vertices
     return Figures(
         Seconds=seconds, ProcessorSeconds=processor, PeakMegabytes=peak, Vertices=vertices,
-        MillionSeconds=1e6 * processor / vertices, Visits=of_vertex("ActiveVertices"),
+        MillionSeconds=1e6 * processor / vertices, Updates=of_vertex("ActiveVertices"),
         Edits=of_vertex("Splits", "Collapses", "Flips"), Surface=digest)
 
 
 def measure_size(options, folder, size):
-    """{threads: figures}"""
+    """Return {threads: figures}."""
     volume = options.volume if size == "0" else os.path.join(folder, "volume.vti")
     if size != "0":
         resample(options.volume, int(size), volume)
@@ -99,12 +99,13 @@ def measure_size(options, folder, size):
 
 
 def target_rows(size, medians):
-    rows = [("Q5", f"{size}: surfaces that differ",
+    rows = [("Q5", f"{size}: different surfaces",
              len({f["Surface"] for f in medians.values() if "Surface" in f}), "<=", 1)]
     for threads, figures in medians.items():
-        wanted = {"2": 1.85, "16": 10 if int(size) >= 512 else 7}.get(threads)
-        if wanted and "1" in medians:
-            rows.append(("S6", f"{size}: gain of {threads} threads", figures["Gain"], ">=", wanted))
+        required = {"2": 1.85, "16": 10 if int(size) >= 512 else 7}.get(threads)
+        if required and "1" in medians:
+            rows.append(("S6", f"{size}: speed-up of {threads} threads", figures["Gain"], ">=",
+                         required))
         if size in ("512", "1024"):
             rows.append(("M1", f"{size}^3: MB, {threads} thread(s)", figures["PeakMegabytes"], "<=",
                          800 if size == "512" else 4200))
@@ -119,7 +120,7 @@ def measure(options):
         runs += [(f"{size}^3, " * bool(int(size)) + f"{threads} thread(s)", figures)
                  for threads, figures in medians.items()]
         targets += target_rows(size, medians)
-    print(f"{options.volume}: gain is the first one's seconds over the run's\n")
+    print(f"{options.volume}: speed-up is relative to the first number of threads\n")
     print_figures(COLUMNS, runs)
     print_targets(targets)
     return finish(options.csv, runs)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of surfaces and of label complexes, whoever made them, with NumPy, VTK and JudgeFiles.
+"""Figures of surfaces and of label complexes, computed with NumPy, VTK and JudgeFiles.
 
-A Complex is any set of triangles between two labels each: the port `Interfaces` of
+A Complex is a set of triangles, each between two labels: the port `Interfaces` of
 vtkLabelsToSurfaces, or the output of vtkSurfaceNets3D.
 """
 
@@ -21,16 +21,16 @@ BACKGROUND = 0
 
 
 def arrays_of(surface):
-    """Points and the corners of triangles."""
+    """Return the points and the triangles as arrays."""
     corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray())
     return vtk_to_numpy(surface.GetPoints().GetData()).astype(float), corners.reshape(-1, 3)
 
 
 def surface_of(points, triangles):
-    surface, places, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
-    places.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    surface, vtk_points, cells = vtkPolyData(), vtkPoints(), vtkCellArray()
+    vtk_points.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
     cells.SetData(3, numpy_to_vtkIdTypeArray(triangles.astype(np.int64).ravel(), deep=True))
-    surface.SetPoints(places)
+    surface.SetPoints(vtk_points)
     surface.SetPolys(cells)
     return surface
 
@@ -43,16 +43,15 @@ def write(surface, path):
 
 
 def judged(judge, path):
-    """{name: figure} by the program JudgeFiles."""
+    """Run the program JudgeFiles; return {name: figure}."""
     names, figures = (subprocess.run([judge, word], check=True, capture_output=True,
                                      text=True).stdout.split() for word in ("--help", path))
     return dict(zip(names, map(float, figures)))
 
 
 class Complex:
-    """Points, triangles, and of each triangle the label behind it and that in front, where its
-    normal points to. `rounded`: points have to be judged as floats, as labels by themselves have
-    them."""
+    """Points, triangles, and the labels behind and in front of each triangle. Normals point to the
+    front. rounded: judge the points as floats, as the surfaces of single labels store them."""
 
     def __init__(self, points, triangles, sides, rounded=False):
         self.points = np.asarray(points, float)
@@ -61,25 +60,25 @@ class Complex:
         self.rounded = rounded
 
     def faces_of(self, label):
-        """The label's boundary, turned outwards."""
+        """Return the boundary of the label, oriented outwards."""
         behind, front = self.sides.T
         return np.vstack([self.triangles[behind == label],
                           self.triangles[front == label][:, ::-1]])
 
 
 def complex_of_output(surface):
-    """Of a vtkPolyData as that of port 1: lines first, then triangles; `BoundaryLabels`."""
+    """Convert the vtkPolyData of port 1: lines first, then triangles, with `BoundaryLabels`."""
     sides = vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels"))
     return Complex(*arrays_of(surface), sides[surface.GetNumberOfLines():], True)
 
 
 def complex_of_twins(points, triangles, labels):
-    """Of triangles of one label each, turned outwards, on common points: two with the same corners
-    become one between both labels."""
+    """Merge triangles of one label each, oriented outwards, on common points: two with the same
+    corners become one between both labels."""
     corners = np.sort(triangles, axis=1)
     order = np.lexsort((*corners.T, ))
     twins = (corners[order[1:]] == corners[order[:-1]]).all(axis=1)
-    twins[1:] &= ~twins[:-1]  # the third of three stays alone
+    twins[1:] &= ~twins[:-1]  # the third of three stays single
     first = order[:-1][twins]
     front = np.full(len(triangles), BACKGROUND)
     front[first] = labels[order[1:][twins]]
@@ -95,13 +94,13 @@ def directed_edges(triangles):
 
 
 def _keys(pairs):
-    """One number for each pair."""
+    """Return one number for each pair."""
     return pairs[:, 0] * 2 ** 32 + pairs[:, 1]
 
 
 def wrong_edges(faces):
-    """Those of a boundary that are not run through exactly once in each direction: none of a closed,
-    oriented surface whose edges have two triangles."""
+    """Count the edges of a boundary that do not occur exactly once in each direction. A closed,
+    oriented manifold has none."""
     edges = directed_edges(faces)
     undirected, number = np.unique(_keys(np.sort(edges, axis=1)), return_inverse=True)
     is_ahead = edges[:, 0] < edges[:, 1]
@@ -111,7 +110,7 @@ def wrong_edges(faces):
 
 
 def edges_of_many(shape):
-    """Those of three triangles or more."""
+    """Return the edges of three or more triangles."""
     edges, faces = np.unique(np.sort(directed_edges(shape.triangles), axis=1), axis=0,
                              return_counts=True)
     return edges[faces > 2]
@@ -125,13 +124,13 @@ def volume_of(points, faces):
 
 
 def _side_lengths(shape):
-    """Of each triangle, the side opposite to each corner."""
+    """Return the length of the side opposite to each corner of each triangle."""
     corners = shape.points[shape.triangles]
     return np.linalg.norm(corners[:, [2, 0, 1]] - corners[:, [1, 2, 0]], axis=2)
 
 
 def least_angles(shape):
-    """Of each triangle, degrees."""
+    """Return the least angle of each triangle, degrees."""
     a, b, c = np.sort(_side_lengths(shape), axis=1).T
     product = 2 * b * c
     cosine = np.divide(b * b + c * c - a * a, product, out=np.ones_like(product),
@@ -140,7 +139,7 @@ def least_angles(shape):
 
 
 def line_angles(points, lines):
-    """Between two segments one after the other, degrees: at points where two meet and no more."""
+    """Return the angles between consecutive segments, degrees, at points of exactly two segments."""
     ends = np.vstack([lines, lines[:, ::-1]])
     ends = ends[np.argsort(ends[:, 0], kind="stable")]
     vertex, start, valence = np.unique(ends[:, 0], return_index=True, return_counts=True)
@@ -164,10 +163,10 @@ class LabelVoxels:
         self.voxel = self.spacing.prod()
 
 
-# ---- All of it -----------------------------------------------------------------------------------
+# ---- Figures -------------------------------------------------------------------------------------
 
 def label_figures(shape, voxels, large):
-    """Sums over the labels, and errors of the volumes of those of more than `large` voxels."""
+    """Return sums over the labels and the largest volume error of labels of over `large` voxels."""
     edges = lost = 0
     errors = []
     for label, count in voxels.counts.items():
@@ -181,7 +180,7 @@ def label_figures(shape, voxels, large):
 
 
 def dihedral_angles(shape):
-    """Degrees, of the edges between two triangles of the same labels."""
+    """Return the angles at edges between two triangles of the same labels, degrees."""
     corners = shape.points[shape.triangles]
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-300
@@ -198,19 +197,19 @@ def dihedral_angles(shape):
 
 
 def figures_of(shape, voxels, judge, large=1000):
-    """{name: number}; crossing pairs and triangles without area by JudgeFiles, with CGAL's exact
-    predicates."""
+    """Return {name: number}. JudgeFiles finds intersecting pairs and triangles without area with CGAL's
+    exact predicates."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "complex.vtp")
         write(surface_of(shape.points.astype(np.float32 if shape.rounded else float),
                          shape.triangles), path)
-        told = judged(judge, path)
+        verdict = judged(judge, path)
     lines = edges_of_many(shape)
     angles = line_angles(shape.points, lines)
     return {
         "Vertices": len(np.unique(shape.triangles)), "Triangles": len(shape.triangles),
-        "Intersections": told["intersections"], "Flat": told["flat"],
-        "RatioMean": told["ratio"], "AngleLeast": least_angles(shape).min(),
+        "Intersections": verdict["intersections"], "Flat": verdict["flat"],
+        "RatioMean": verdict["ratio"], "AngleLeast": least_angles(shape).min(),
         "Dihedral": np.quantile(dihedral_angles(shape), .95),
         "Roughness": np.quantile(angles, .95) if len(angles) else np.nan,
         **label_figures(shape, voxels, large)}

@@ -1,29 +1,31 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Makes the pictures of data in README.md and Documentation/ that Examples/quickstart.sh does not
-make, all with one command:
+"""Draw the pictures of data in README.md and Documentation/ with one command:
 
     xvfb-run -a /usr/bin/python3 Testing/Benchmarks/figures.py --vessels aneurism.vti 100.5
 
-    graded     triangles, and fewer of them within a tolerance               Cranium.inv3, --graded
-    thin       triangles, and more of them where it is thin                  Cranium.inv3
+    levels     the surface of each level                                     Cranium.inv3
+    views      the surface from outside, and cut open                        Cranium.inv3
+    graded     uniform triangles, and fewer within a tolerance               Cranium.inv3, --graded
+    thin       uniform triangles, and smaller ones at thin parts             Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
     evolution  the paper's figures 3 and 4, and the same with the defaults   Cranium.inv3
     vessels    the paper's figure 6, with recovery and without               --vessels
     labels     surfaces of a label map                                       --label-map
-    interfaces one mesh of labels that touch                                 made grains
+    interfaces one mesh of labels that touch                                 generated grains
+    tetrahedra a tetrahedral mesh of labels, cut open                        --tetrahedra
 
 The paper's settings are four levels and no recovery.
 
-Cranium.inv3 is the CT of a skull from Debian's package invesalius-examples. --vessels names any
-scan of vessels, brighter than what is around them, and its iso-value; it may be repeated: the
-first is drawn as vessels.png, any other as vessels-NAME.png after its file; without it there is no
-such picture. --graded names any other scan, with its iso-value and a tolerance in its unit of
-length; it may be repeated, and is drawn as graded-NAME.png. --label-map names the atlas
-JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data; without it there is no picture
-of labels. Each picture is less than 300 kB.
+Cranium.inv3 is the CT of a skull of Debian's package invesalius-examples. --vessels names a scan of
+bright vessels and its iso-value; it may be repeated: the first scan is drawn as vessels.png, others
+as vessels-NAME.png, with the name of the file. --graded names another scan, its iso-value and a
+tolerance in its unit of length; it may be repeated and is drawn as graded-NAME.png. --label-map
+names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data. --tetrahedra
+names a .vtu with labels that the command has written. Pictures whose option is not given are not
+drawn. Each picture has less than 300 kB.
 """
 
 import argparse
@@ -43,26 +45,26 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import history_chart
 import pictures
 import render
-from label_pictures import interface_picture, label_picture
+from label_pictures import interface_picture, label_picture, tetrahedra_picture
 from pictures import blocks_of, close_view, main_component, number, surface_row, visited_levels
 
 SKULL = os.environ.get(
     "VOLUMIC_CRANIUM", "/usr/share/doc/invesalius-examples/examples/Cranium.inv3")
 SKULL_ISO = 226.5
 PAPERS_COARSEST = 3  # the paper starts at G3, the fourth of its levels
-EDGE_OF_THE_REST = .3, .5, .5  # of the head, a thin sheet behind the skull; shares of the bounds
-STARTS_ONLY = 10 ** 6  # iterations between snapshots: none but the one at each level's start
-ROW_WIDTH = 1240  # pixels of a whole picture, about as wide as a page of a repository is shown
-GAP = 10  # between panels, that of render.compose
-LARGEST = 300000  # bytes of a picture
-GREY_STEP = 5  # colours are rounded to multiples: half the size, and hardly visible
-SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, and the surface at rest
-START_ZOOM = 1.25  # a rounded box does not reach the corners of its bounds
+EDGE_OF_THE_REST = .3, .5, .5  # of the head rest, a thin sheet behind the skull; relative to the bounds
+STARTS_ONLY = 10 ** 6  # iterations between snapshots: only the start of each level
+ROW_WIDTH = 1240  # pixels of a picture, about the width of a repository's page
+GAP = 10  # pixels between panels, as in render.compose
+LARGEST = 300000  # bytes of a picture, limit
+GREY_STEP = 5  # colours are rounded to multiples: halves the file size
+SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, before the converged surface
+START_ZOOM = 1.25  # the rounded box leaves the corners of its bounds empty
 AS_PAPER = "As in the paper: {} levels, no recovery"
 
 
 class Scan(pictures.Scan):
-    """A volume, its pyramid and the runs on it, each made when it is first used."""
+    """A volume, its pyramid and the runs on it, each made at first use."""
 
     def __init__(self, path, iso):
         super().__init__(volumic.read(path), iso)
@@ -71,9 +73,9 @@ class Scan(pictures.Scan):
 
     @functools.cache
     def run(self, **properties):
-        """The filter after its run, with the properties that differ from their defaults.
+        """Return the filter after a run with these properties; others have their defaults.
 
-        Its snapshots hold at least the start of every level.
+        Its snapshots contain at least the start of every level.
         """
         print(f"  {', '.join(f'{n} {v}' for n, v in properties.items()) or 'default properties'}")
         surface = volumic.vtkDeformableSurface()
@@ -87,15 +89,15 @@ class Scan(pictures.Scan):
         return surface
 
     def coarsest(self):
-        """The coarsest level where a voxel is above the iso-value."""
+        """Return the coarsest level where a voxel is above the iso-value."""
         self.pyramid.Update()
         return max(h for h, image in enumerate(pictures.blocks_of(self.pyramid.GetOutput()))
                    if image.GetScalarRange()[1] > self.iso)
 
     @functools.cache
     def run_as_paper(self):
-        """Without recovery, from level 3 or else the first at which something is left; that level.
-        """
+        """Run without recovery from level 3, or from the first finer level that shows the object.
+        Return the filter and that level."""
         for level in range(min(PAPERS_COARSEST, self.coarsest()), 0, -1):
             try:
                 return self.run(Recovery=0, Metric=0, CoarsestLevel=level), level
@@ -105,13 +107,13 @@ class Scan(pictures.Scan):
 
 
 def iterations(surface):
-    """(level, number of iterations) of a run, in the order of the levels."""
+    """Return (level, number of iterations) of a run, in the order of the levels."""
     levels = vtk_to_numpy(surface.GetHistory().GetColumnByName("Level"))
     return [(int(level), int((levels == level).sum())) for level in dict.fromkeys(levels.tolist())]
 
 
 def starts(surface):
-    """The surface before the first iteration of each level, by level."""
+    """Return {level: surface before the first iteration}."""
     return {field(block, "Level"): block for block in pictures.blocks_of(surface.GetSnapshots())
             if field(block, "Iterations") == 0}
 
@@ -124,26 +126,52 @@ def panel_width(columns):
     return (ROW_WIDTH - GAP) // columns - GAP
 
 
+def levels(skull):
+    surfaces = [(f"Level {level}", surface)
+                for level, surface in visited_levels(skull.run().GetLevels())]
+    row, captions = surface_row(surfaces, skull.frame, surfaces[-1][1].GetBounds(),
+                                panel_width(len(surfaces)))
+    return render.compose([row], [captions])
+
+
+def views(skull):
+    surface, _ = main_component(skull.run().GetOutput())
+    frame, width = skull.frame, panel_width(4)
+    views_outside, bounds = pictures.OUTSIDE[1:], surface.GetBounds()
+    size = width, render.fitting_height(width, frame, views_outside, bounds)
+    row = [render.draw([render.surface_actor(surface)], size, frame, *view, bounds)
+           for view in views_outside]
+    row += [render.draw([pictures.cut_open(surface, -frame.vector(view[0]))], size, frame, *view,
+                        bounds) for view in pictures.INSIDE]
+    names = (*pictures.NAMES[0][1:], *pictures.NAMES[1][:2])
+    return render.compose([row], [[(name,) for name in names]])
+
+
 def graded(scan, tolerance=0.5, unit=" mm"):
-    return beside_even(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
+    return beside_uniform(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
 
 
 def thin(skull):
-    return beside_even(skull, "Thin parts", {"ThinParts": True}, towards="P", at=EDGE_OF_THE_REST)
+    return beside_uniform(skull, "Thin parts", {"ThinParts": True}, whole, towards="P",
+                          at=EDGE_OF_THE_REST)
 
 
-def beside_even(scan, name, properties, **view):
-    """The triangles of a run beside those whose edges have one length."""
-    width, even = panel_width(2), scan.run().GetOutput()
-    surfaces = {"All edges of one length": even, name: scan.run(**properties).GetOutput()}
-    row = [close_view(main_component(surface)[0], scan.frame, (width, width * 3 // 10),
-                      delta=number(even, "Delta"), **view) for surface in surfaces.values()]
+def whole(surface):
+    return surface, None
+
+
+def beside_uniform(scan, name, properties, shown_of=main_component, **view):
+    """Draw the triangles of a run beside those of uniform edge length."""
+    width, uniform = panel_width(2), scan.run().GetOutput()
+    surfaces = {"Uniform edge length": uniform, name: scan.run(**properties).GetOutput()}
+    row = [close_view(shown_of(surface)[0], scan.frame, (width, width * 3 // 10),
+                      delta=number(uniform, "Delta"), **view) for surface in surfaces.values()]
     return render.compose([row], [[(f"{name}: {surface.GetNumberOfPoints()} vertices",)
                                    for name, surface in surfaces.items()]])
 
 
 def without_pyramid(skull):
-    """The run on the image alone, with snapshots on its way."""
+    """Run on the image alone, with snapshots."""
     return skull.run(CoarsestLevel=0, SnapshotInterval=50)
 
 
@@ -155,8 +183,8 @@ def history(skull):
 
 
 def comparison_chart(evolutions, other, size=(1240, 1240)):
-    """The curves of several evolutions, (name, history), a column for each, at the same scale; those
-    of the other one, (name, history), dashed in all columns."""
+    """Draw the curves of several evolutions (name, history), a column for each, at the same scale.
+    The curves of `other` (name, history) are dashed in all columns."""
     coarsest = max(history["Level"].max() for _, history in evolutions)
     width = size[0] // len(evolutions)
     heads = [np.concatenate([
@@ -173,7 +201,7 @@ def comparison_chart(evolutions, other, size=(1240, 1240)):
 
 
 def columns(surface):
-    """The columns of a history that are drawn."""
+    """Return the columns of a history that are drawn."""
     return {name: vtk_to_numpy(surface.GetHistory().GetColumnByName(name)).astype(float)
             for name in ("Level", *(curve[0] for curve in history_chart.CURVES))}
 
@@ -182,14 +210,14 @@ def evolution(skull):
     direct = without_pyramid(skull)
     taken = {field(block, "Iterations"): block for block in blocks_of(direct.GetSnapshots())}
     stages = [(f"Iteration {n}", taken[n]) for n in SNAPSHOTS if n in taken]
-    stages.append((f"At rest, iteration {iterations(direct)[0][1]}", direct.GetOutput()))
+    stages.append((f"Converged, iteration {iterations(direct)[0][1]}", direct.GetOutput()))
     as_paper, start = skull.run_as_paper()
     rows = [stages, stages_by_level(as_paper), stages_by_level(skull.run())]
-    # The starts enclose the image, a little wider on coarser levels.
+    # Initial surfaces enclose the image, with a wider margin on coarser levels.
     bounds = np.array([surface.GetBounds() for row in rows for _, surface in row])
     bounds = np.where([True, False] * 3, bounds.min(axis=0), bounds.max(axis=0))
     width = panel_width(max(map(len, rows)))
-    panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=START_ZOOM)
+    panels, captions = zip(*(surface_row(row, skull.frame, bounds, width, zoom=1)
                              for row in rows))
     return render.compose(panels, captions, None,
                           ["Without the pyramid (the paper's figure 3)",
@@ -198,7 +226,7 @@ def evolution(skull):
 
 
 def stages_by_level(surface):
-    """The start, and the surface at rest on each level, with the iterations until then."""
+    """Return the initial surface and the converged surface of each level, with iterations so far."""
     blocks = dict(visited_levels(surface.GetLevels()))
     counts = iterations(surface)
     stages = [(f"Level {counts[0][0]}, iteration 0", starts(surface)[counts[0][0]])]
@@ -217,7 +245,7 @@ def vessels(scan):
                            for surface in (without, recovered)))
     return render.compose(rows, captions, None,
                           [f"No recovery, as in the paper, from level {start}",
-                           "With recovery of parts and cavities, from the coarsest level"])
+                           "With recovery of objects and cavities, from the coarsest level"])
 
 
 def labels(path):
@@ -228,14 +256,18 @@ def interfaces(_):
     return interface_picture(panel_width(2))
 
 
+def tetrahedra(path):
+    return tetrahedra_picture(path, panel_width(2))
+
+
 def all_levels_row(surface, coarsest, frame, bounds):
-    """Panels and captions of all levels from the coarsest, empty where there is no surface."""
+    """Return panels and captions of all levels from the coarsest, empty where there is no surface."""
     counts = dict(iterations(surface))
-    there = {level: (f"Level {level}, {counts[level]} iterations", block)
+    existing = {level: (f"Level {level}, {counts[level]} iterations", block)
              for level, block in visited_levels(surface.GetLevels())}
-    panels, captions = surface_row(there.values(), frame, bounds, panel_width(coarsest + 1), zoom=1)
+    panels, captions = surface_row(existing.values(), frame, bounds, panel_width(coarsest + 1), zoom=1)
     for column, level in enumerate(range(coarsest, -1, -1)):
-        if level not in there:
+        if level not in existing:
             panels.insert(column, render.blank(*panels[0].shape[:2]))
             captions.insert(column, (f"Level {level}", f"vanished after {counts[level]} iterations"
                                      if level in counts else "not visited"))
@@ -243,7 +275,7 @@ def all_levels_row(surface, coarsest, frame, bounds):
 
 
 def compact(picture):
-    """Fewer colours, for a smaller file; the background stays as it is."""
+    """Reduce the number of colours, for a smaller file; the background does not change."""
     background = render.blank(1, 1)[0, 0]
     is_background = (np.abs(picture.astype(int) - background).max(axis=2) < 3)
     rounded = np.minimum(np.round(picture / GREY_STEP) * GREY_STEP, 255).astype(np.uint8)
@@ -251,16 +283,16 @@ def compact(picture):
     return rounded
 
 
-SKULL_PICTURES = (graded, thin, history, evolution)
+SKULL_PICTURES = (levels, views, graded, thin, history, evolution)
 
 
 def further_name(picture, path):
-    """Of a picture of another scan, after the first word of its file."""
+    """Return the name of a picture of another scan: the first word of its file name."""
     return f"{picture}-" + os.path.basename(path).partition(".")[0].partition("_")[0]
 
 
 def write_picture(draw, scan, folder, name=None):
-    """Write the picture; its size must fit a repository."""
+    """Draw and write a picture; raise OSError if the file is too large."""
     path = os.path.join(folder, (name or draw.__name__) + ".png")
     print(f"Drawing {path}", flush=True)
     render.write_png(compact(draw(scan)), path)
@@ -272,7 +304,8 @@ def write_picture(draw, scan, folder, name=None):
 
 def main():
     folder = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../Documentation")
-    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces"]
+    known = [draw.__name__ for draw in SKULL_PICTURES] + ["vessels", "labels", "interfaces",
+                                                             "tetrahedra"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
@@ -282,8 +315,9 @@ def main():
     parser.add_argument("--graded", nargs=3, metavar=("VOLUME", "ISO", "TOLERANCE"),
                         action="append", default=[], help="may be repeated: graded-NAME.png")
     parser.add_argument("--label-map", metavar="FILE", help="for labels.png")
+    parser.add_argument("--tetrahedra", metavar="FILE.vtu", help="for tetrahedra.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
-                        help="another volume in the place of the skull")
+                        help="volume used instead of the skull")
     arguments = parser.parse_args()
     try:
         os.makedirs(arguments.output, exist_ok=True)
@@ -291,22 +325,24 @@ def main():
         skull = of_skull and Scan(arguments.skull[0], float(arguments.skull[1]))
         for draw in of_skull:
             write_picture(draw, skull, arguments.output)
-        wanted = arguments.vessels if "vessels" in arguments.only else []
-        for place, (path, iso) in enumerate(wanted):
+        scans = arguments.vessels if "vessels" in arguments.only else []
+        for number_of_scan, (path, iso) in enumerate(scans):
             write_picture(vessels, Scan(path, float(iso)), arguments.output,
-                          further_name("vessels", path) if place else "vessels")
+                          further_name("vessels", path) if number_of_scan else "vessels")
         for path, iso, tolerance in arguments.graded if "graded" in arguments.only else []:
             draw = functools.partial(graded, tolerance=float(tolerance), unit="")
             write_picture(draw, Scan(path, float(iso)), arguments.output,
                           further_name("graded", path))
         if "labels" in arguments.only and arguments.label_map:
             write_picture(labels, arguments.label_map, arguments.output)
+        if "tetrahedra" in arguments.only and arguments.tetrahedra:
+            write_picture(tetrahedra, arguments.tetrahedra, arguments.output)
         if "interfaces" in arguments.only:
             write_picture(interfaces, None, arguments.output)
-        if "vessels" in arguments.only and not wanted:
-            print("No --vessels: their pictures stay as they are")
+        if "vessels" in arguments.only and not scans:
+            print("No --vessels: vessels*.png are not drawn")
         if "graded" in arguments.only and not arguments.graded:
-            print("No --graded: the pictures of other scans stay as they are")
+            print("No --graded: graded-*.png are not drawn")
     except (Failure, ValueError, OSError) as error:
         sys.exit(f"figures.py: {error}")
 

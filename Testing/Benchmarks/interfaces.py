@@ -1,16 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The mesh of all labels of a map: vtkLabelsToSurfaces (us) beside vtkSurfaceNets3D (nets, VTK 9.3)
-and vtkDiscreteFlyingEdges3D with vtkWindowedSincPolyDataFilter (windowed). `graded` is ours with a
-Tolerance of a fifth of a voxel. Requires Volumic's Python package.
+"""The mesh of all labels of a map: vtkLabelsToSurfaces (us), vtkSurfaceNets3D (nets, VTK 9.3) and
+vtkDiscreteFlyingEdges3D with vtkWindowedSincPolyDataFilter (windowed). `graded` is vtkLabelsToSurfaces
+with a Tolerance of a fifth of a voxel. Requires Volumic's Python package.
 
-`s` is processor seconds, of one thread, the median; `time` that over windowed's.
-`crossing` are pairs of triangles that meet elsewhere than in corners and edges that they share.
-`open` are edges where the boundary of a label is not closed, oriented and manifold.
-`vol %` is the largest error of a label's volume, of labels of over 1000 voxels. `angle` is the least
-one of a triangle, degrees; `rough` that between two segments of a junction line, 95 % of them,
-`dihedral` the angle between triangles of the same labels, 95 % of them, `distance` that of triangles
-to the true planes between grains, voxels, the mean."""
+s         processor seconds of one thread, median
+time      s relative to windowed
+crossing  pairs of triangles that intersect outside their common corners and edges
+open      edges where the boundary of a label is not closed, oriented and manifold
+vol %     largest volume error of a label of more than 1000 voxels
+q, angle  mean radius ratio; least angle of a triangle, degrees
+dihedral  angle between the normals of neighbouring triangles of the same labels, 95 % quantile
+distance  mean distance of triangles to the true planes between grains, voxels
+rough     angle between consecutive segments of a junction line, 95 % quantile"""
 
 import math
 import os
@@ -34,24 +36,24 @@ from tables import Figures, finish, print_figures, print_targets, ratio, say
 COLUMNS = {
     "Seconds": "s", "Time": "time", "Vertices": "vertices", "PerSecond": "triangles / s",
     "Intersections": "crossing", "WrongEdges": "open",
-    "LostLabels": "lost", "VolumeLargest": "vol %", "RatioMean": "q", "AngleLeast": "angle",
+    "LostLabels": "no surface", "VolumeLargest": "vol %", "RatioMean": "q", "AngleLeast": "angle",
     "Dihedral": "dihedral", "Truth": "distance", "Roughness": "rough"}
 TEMPLATES = "/usr/share/mricron/templates"
 
 
 def add_options(parser):
-    parser.add_argument("--judge", default="JudgeFiles", help="the program JudgeFiles")
+    parser.add_argument("--judge", default="JudgeFiles", help="path of the program JudgeFiles")
     parser.add_argument("--maps", default="polycrystal,tooth,slices,aal,JHU", metavar="LIST",
-                        help="of polycrystal, tooth, slices, aal, JHU (Debian's mricron-data), small")
+                        help="polycrystal, tooth, slices, aal, JHU (Debian's mricron-data), small")
     parser.add_argument("--runs", default=",".join(runs_here()), metavar="LIST", help="(%(default)s)")
-    parser.add_argument("--threads", type=int, default=1, help="of ours; then `s` is the clock's")
+    parser.add_argument("--threads", type=int, default=1, help="of us; from 2 on `s` is elapsed time")
     parser.add_argument("--repetitions", type=int, default=1)
 
 
 # ---- Maps ----------------------------------------------------------------------------------------
 
 def read(path):
-    """A .vti, or a NIfTI file; voxels as they are told, but the first one at 0."""
+    """Read a .vti or NIfTI file with its voxel distances; the first voxel is at 0."""
     reader = vtkXMLImageDataReader() if path.endswith(".vti") else vtkNIFTIImageReader()
     reader.SetFileName(path)
     reader.Update()
@@ -62,37 +64,37 @@ def read(path):
 
 
 def polycrystal(size, grains):
-    """Voronoi cells of random places; there is no background."""
-    places = np.random.default_rng(34).random((grains, 3)) * (size - 1)
+    """Return the Voronoi cells of random points; there is no background."""
+    centers = np.random.default_rng(34).random((grains, 3)) * (size - 1)
     at = np.arange(size, dtype=float)
     nearest = np.full((size, ) * 3, np.inf)
     values = np.zeros(nearest.shape, np.int16)
-    for grain, (x, y, z) in enumerate(places, 1):
+    for grain, (x, y, z) in enumerate(centers, 1):
         squared = (((at - z) ** 2)[:, None, None] + ((at - y) ** 2)[None, :, None]
                    + ((at - x) ** 2)[None, None, :])
         values[squared < nearest] = grain
         np.minimum(nearest, squared, out=nearest)
     voxels = LabelVoxels(values)
-    voxels.places = places
+    voxels.centers = centers
     return voxels
 
 
 def distance_to_truth(shape, voxels):
-    """Of the middles of triangles to the planes between grains, the mean."""
-    if not hasattr(voxels, "places"):
+    """Return the mean distance of triangle centres to the planes between grains."""
+    if not hasattr(voxels, "centers"):
         return math.nan
     inner = (shape.sides != BACKGROUND).all(axis=1)
     middles = shape.points[shape.triangles[inner]].mean(axis=1)
-    first, second = (voxels.places[shape.sides[inner, side] - 1] for side in (0, 1))
+    first, second = (voxels.centers[shape.sides[inner, side] - 1] for side in (0, 1))
     differences = ((middles - first) ** 2).sum(axis=1) - ((middles - second) ** 2).sum(axis=1)
     return np.mean(np.abs(differences) / (2 * np.linalg.norm(first - second, axis=1)))
 
 
 def tooth(size, step=1):
-    """Pulp (1) in dentin (2), and enamel (3) on the crown; cut open along an oblique plane, so that
-    all three meet the background there. Of every so many slices one."""
+    """Return pulp (1) in dentin (2) and enamel (3) on the crown, cut by an oblique plane, so that all
+    three meet the background there. step: keep one of so many slices."""
     z, y, x = np.mgrid[:size, :size, :size] / (size - 1) * 2 - 1
-    # Slimmer towards the root, which is down.
+    # Narrower towards the root, which is at the bottom.
     around = np.hypot(x + .03, y - .02) / (.62 + .3 * z)
 
     def within(half_width, root, crown):
@@ -107,13 +109,13 @@ def tooth(size, step=1):
 
 
 def template(name):
-    """Of Debian's mricron-data; None where that is not installed."""
+    """Return a map of Debian's mricron-data; None if that is not installed."""
     path = os.path.join(TEMPLATES, f"{name}.nii.gz")
     return read(path) if os.path.exists(path) else None
 
 
 def named_maps():
-    """{name: what makes it}"""
+    """Return {name: function that makes the map}."""
     return {
         "polycrystal": lambda: polycrystal(128, 60),
         "tooth": lambda: tooth(128),
@@ -126,7 +128,7 @@ def named_maps():
 # ---- Runs ----------------------------------------------------------------------------------------
 
 def image_of(voxels, margin=0):
-    """`margin`: so many layers of background about it."""
+    """Return a vtkImageData with `margin` layers of background around it."""
     values = np.pad(voxels.values, margin, constant_values=BACKGROUND)
     image = vtkImageData()
     image.SetDimensions(*values.shape[::-1])
@@ -137,7 +139,7 @@ def image_of(voxels, margin=0):
 
 
 def run(image, *filters, threads=1):
-    """One after the other; seconds: of one thread the processor's, else the clock's."""
+    """Run a pipeline; return processor seconds for one thread, else elapsed seconds."""
     filters[0].SetInputDataObject(image)
     for first, second in zip(filters, filters[1:]):
         second.SetInputConnection(first.GetOutputPort())
@@ -148,19 +150,19 @@ def run(image, *filters, threads=1):
 
 
 def ours(voxels, threads, tolerance=0.):
-    """tolerance: in smallest distances of voxels"""
+    """tolerance: in units of the smallest voxel distance"""
     surfaces = vtkLabelsToSurfaces()
     surfaces.SetTolerance(tolerance * min(voxels.spacing))
     surfaces.SetNumberOfThreads(threads)
     seconds = run(image_of(voxels), surfaces, threads=threads)
     if surfaces.GetErrorCode():
-        raise RuntimeError("vtkLabelsToSurfaces failed, see above")
+        raise RuntimeError("vtkLabelsToSurfaces failed; see its error message above")
     return seconds, complex_of_output(surfaces.GetOutputDataObject(1))
 
 
 def windowed(voxels):
-    """vtkDiscreteFlyingEdges3D of all labels, their points merged, and
-    vtkWindowedSincPolyDataFilter with its defaults and what keeps labels together."""
+    """Run vtkDiscreteFlyingEdges3D on all labels, merge points, and smooth with the defaults of
+    vtkWindowedSincPolyDataFilter, except those that would separate labels."""
     edges, merge = vtkDiscreteFlyingEdges3D(), vtkFiltersCore.vtkCleanPolyData()
     smooth = vtkFiltersCore.vtkWindowedSincPolyDataFilter()
     for number, label in enumerate(voxels.counts):
@@ -180,7 +182,7 @@ def windowed(voxels):
 
 
 def sides_by_voxels(surface, voxels):
-    """The labels behind and in front of triangles that are half a side of a voxel each."""
+    """Return the labels behind and in front of triangles, each of which is half of a voxel face."""
     points, triangles = arrays_of(surface)
     corners = points[triangles] / voxels.spacing
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
@@ -192,8 +194,8 @@ def sides_by_voxels(surface, voxels):
 
 
 def nets(voxels):
-    """vtkSurfaceNets3D of all labels, with its smoothing. It does not tell which of a triangle's
-    labels is behind it: the same triangles, not smoothed, are between the two voxels."""
+    """Run vtkSurfaceNets3D on all labels, with its smoothing. Its output does not state which label is
+    behind a triangle; this is found from the voxels, with the triangles before smoothing."""
     surfaces = vtkFiltersCore.vtkSurfaceNets3D()
     for number, label in enumerate(voxels.counts):
         surfaces.SetValue(number, label)
@@ -206,7 +208,7 @@ def nets(voxels):
 
 
 def runs_here(threads=1):
-    """{name: function}; those that this VTK has."""
+    """Return {name: function} of the filters that this VTK has."""
     return {"us": lambda voxels: ours(voxels, threads),
             "graded": lambda voxels: ours(voxels, threads, .2),
             **({"nets": nets} if hasattr(vtkFiltersCore, "vtkSurfaceNets3D") else {}),
@@ -214,7 +216,7 @@ def runs_here(threads=1):
 
 
 def measure_map(options, name, voxels):
-    """{run: figures}, the repetitions by turns."""
+    """Return {run: figures}; repetitions are made in turns."""
     runs = {run: runs_here(options.threads)[run] for run in options.runs.split(",")}
     made = {run: [] for run in runs}
     for _ in range(options.repetitions):
@@ -227,7 +229,7 @@ def measure_map(options, name, voxels):
                 say(str(error))
     measured = {}
     for run_name, repetitions in made.items():
-        measured[run_name] = Figures(Failure="see above")
+        measured[run_name] = Figures(Failure="see the error message above")
         if repetitions:
             seconds = statistics.median(each[0] for each in repetitions)
             figures = Figures(figures_of(repetitions[-1][1], voxels, options.judge), Seconds=seconds)
@@ -251,12 +253,12 @@ def target_rows(name, measured):
 
 def measure(options):
     if "nets" not in runs_here():
-        print("vtkSurfaceNets3D is left out: it comes with VTK 9.3 (Debian 13).")
+        print("vtkSurfaceNets3D is skipped: it requires VTK 9.3 (Debian 13).")
     all_runs, targets = [], []
     for name in options.maps.split(","):
         voxels = named_maps()[name]()
         if voxels is None:
-            print(f"{name} is left out: mricron-data is not installed.")
+            print(f"{name} is skipped: install Debian's package mricron-data.")
             continue
         measured = measure_map(options, name, voxels)
         print(f"\n{name}: {' x '.join(map(str, voxels.values.shape[::-1]))} voxels, "

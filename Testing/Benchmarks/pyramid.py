@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 """Times of vtkImagePyramid and of VTK's Gaussian with resize, on the same int16 voxels, in turns.
-Milliseconds are medians: processor time with one thread, elapsed time with two. Allocations count."""
+Medians in ms, with allocations: processor time with one thread, elapsed time with two."""
 
 import ctypes
 import statistics
@@ -22,7 +22,7 @@ OURS, VTK = "vtkImagePyramid", "VTK Gaussian, resize"
 
 
 def add_options(parser):
-    parser.add_argument("volume", help=".vti, of values that fit into 16 bits")
+    parser.add_argument("volume", help=".vti with values that fit into 16 bits")
     parser.add_argument("--repetitions", type=int, default=15)
 
 
@@ -36,7 +36,7 @@ def read(path):
 
 
 def run_ours(volume, levels, threads):
-    """The images from level 1 on; levels: counting level 0, 0 for all."""
+    """Return the images from level 1 on. levels: number of levels including level 0; 0: all."""
     pyramid = vtkImagePyramid()
     pyramid.SetInputData(volume)
     pyramid.SetNumberOfLevels(levels)
@@ -51,7 +51,7 @@ def run_vtk(volume, sizes, threads):
         smooth, resize = vtkImageGaussianSmooth(), vtkImageResize()
         smooth.SetInputData(volume)
         smooth.SetStandardDeviation(1)
-        smooth.SetRadiusFactor(2)  # two voxels to either side
+        smooth.SetRadiusFactor(2)  # two voxels on either side
         smooth.SetNumberOfThreads(threads)
         resize.SetInputConnection(smooth.GetOutputPort())
         resize.SetResizeMethodToOutputDimensions()
@@ -62,38 +62,38 @@ def run_vtk(volume, sizes, threads):
 
 
 def times_of(volume, repetitions):
-    """{(who, levels, threads): seconds of each repetition}"""
+    """Return {(filter, levels, threads): seconds of each repetition}."""
     sizes = [image.GetDimensions() for image in run_ours(volume, 0, 1)]
-    times = {(who, *work): [] for who in (OURS, VTK) for work in WORK}
+    times = {(name, *work): [] for name in (OURS, VTK) for work in WORK}
     for _ in range(repetitions):
         for levels, threads in WORK:
             these = sizes[:1] if levels == "one level" else sizes
-            # What is quick is repeated: it must not measure the caches that others left.
-            for who, count, work in ((OURS, 6, lambda: run_ours(volume, len(these) + 1, threads)),
-                                     (VTK, 1, lambda: run_vtk(volume, these, threads))):
+            # The fast filter is repeated, so that it runs with warm caches.
+            for name, count, work in ((OURS, 6, lambda: run_ours(volume, len(these) + 1, threads)),
+                                      (VTK, 1, lambda: run_vtk(volume, these, threads))):
                 clock = time.process_time if threads == 1 else time.perf_counter
                 start = clock()
                 for _ in range(count):
                     work()
-                times[who, levels, threads].append((clock() - start) / count)
+                times[name, levels, threads].append((clock() - start) / count)
     return times
 
 
 def resident(name):
-    """A line of /proc/self/status, bytes."""
+    """Return a value of /proc/self/status in bytes."""
     with open("/proc/self/status", encoding="ascii") as status:
         return next(1024 * int(line.split()[1]) for line in status if line.startswith(name + ":"))
 
 
-def tell_peak(path, threads):
-    """In a process of its own, where no memory has been used and freed."""
+def print_peak(path, threads):
+    """Print the peak memory. Runs in a process of its own, without memory that was freed before."""
     volume, small = read(path), vtkImageData()
-    small.SetDimensions(32, 32, 32)  # libraries, threads and their stacks are there before it counts
+    small.SetDimensions(32, 32, 32)  # loads libraries and starts threads before the measurement
     small.AllocateScalars(4, 1)
     run_ours(small, 0, threads)
-    ctypes.CDLL(None).malloc_trim(0)  # memory that was freed before must not serve what is measured
+    ctypes.CDLL(None).malloc_trim(0)  # freed memory must not be reused by the measured run
     with open("/proc/self/clear_refs", "w", encoding="ascii") as refs:
-        refs.write("5")  # the peak starts again
+        refs.write("5")  # resets the peak
     before = resident("VmRSS")
     images = run_ours(volume, 0, threads)
     pyramid = sum(4 * image.GetNumberOfPoints() for image in images)
@@ -105,23 +105,23 @@ def measure(options):
     times = times_of(read(options.volume), options.repetitions)
     medians = {key: statistics.median(seconds) for key, seconds in times.items()}
     print_table([["ms", *(f"{levels}, {threads} thread(s)" for levels, threads in WORK)]] + [
-        [who, *(short_text(1e3 * medians[who, *work]) for work in WORK)] for who in (OURS, VTK)])
+        [name, *(short_text(1e3 * medians[name, *work]) for work in WORK)] for name in (OURS, VTK)])
     one = medians[OURS, "one level", 1]
-    quickest = [min(times[OURS, "one level", threads]) for threads in (1, 2)]
+    fastest = [min(times[OURS, "one level", threads]) for threads in (1, 2)]
     rows = [("P1", "one level, one thread, to VTK", ratio(one, medians[VTK, "one level", 1]), "<=",
              .05),
-            # Where others run too, only the quickest can show what a second thread gains.
-            ("P1", "one thread to two, quickest", ratio(*quickest), ">=", 1.7),
-            ("P2", "all levels to the first", ratio(medians[OURS, "all levels", 1], one), "<=", 1.35)]
+            # On a busy machine only the fastest runs show the speed-up of a second thread.
+            ("P1", "speed-up of two threads, fastest", ratio(*fastest), ">=", 1.7),
+            ("P2", "all levels to one level", ratio(medians[OURS, "all levels", 1], one), "<=", 1.35)]
     for threads in (1, 2):
-        told = Figures()
-        told.take(subprocess.run([sys.executable, __file__, options.volume, str(threads)],
-                                 stdout=subprocess.PIPE, text=True, check=True).stdout)
-        rows.append(("P3", f"peak memory, {threads} thread(s), to pyramid and planes", told["Share"],
-                     "<=", 1))
+        figures = Figures()
+        figures.take(subprocess.run([sys.executable, __file__, options.volume, str(threads)],
+                                    stdout=subprocess.PIPE, text=True, check=True).stdout)
+        rows.append(("P3", f"peak memory, {threads} thread(s), relative to pyramid and planes",
+                     figures["Share"], "<=", 1))
     print_targets(rows)
     return 0
 
 
 if __name__ == "__main__":
-    tell_peak(sys.argv[1], int(sys.argv[2]))
+    print_peak(sys.argv[1], int(sys.argv[2]))

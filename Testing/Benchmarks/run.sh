@@ -2,8 +2,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 #
-# Builds the benchmarks and prints the tables of Documentation/measured.md. The machine should have
-# nothing else to do.
+# Builds the benchmarks and prints the tables of Documentation/measured.md. Run it on an idle machine.
 
 set -eo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../../CMake/debian.sh"
@@ -12,11 +11,12 @@ usage()
 {
   cat << 'USAGE'
 Usage: bash Testing/Benchmarks/run.sh [TABLE [OPTION]...]
-  TABLE   pyramid, surface, command: of the skull CT of Debian's invesalius-examples
-          interfaces: of maps that are made, and two of Debian's mricron-data; all without a TABLE
-  OPTION  instead, of that table: benchmark.py TABLE --help tells; the skull is
-          build/benchmarks/skull.vti, its iso-value 226.5
-Tables are printed; all figures are left in build/benchmarks/*.csv.
+  TABLE   pyramid, surface, command: skull CT of Debian's invesalius-examples
+          interfaces: generated label maps, and two of Debian's mricron-data
+          (default: all tables)
+  OPTION  replaces the table's default options; `benchmark.py TABLE --help` lists them. The skull
+          is build/benchmarks/skull.vti, its iso-value 226.5
+Prints the tables and writes all figures to build/benchmarks/*.csv.
 USAGE
 }
 
@@ -43,7 +43,7 @@ run_step "Reading the skull CT" benchmark-skull \
   "$build/install-vtk/bin/volumic" "$(cranium)" --write-volume "$skull"
 
 failed= tables_made=0
-# measure TABLE OPTION...: one that fails does not stop the others.
+# measure TABLE OPTION...: run a table. A failure does not stop the other tables.
 measure()
 {
   local table=$1 package

@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""vtkDeformableSurface and what else makes a surface of a volume, each run in a process of its own,
-all judged by the same code.
+"""vtkDeformableSurface and other surface generators, each run in a process of its own, all judged by
+the same code.
 
-Peers get the volume with a voxel of air around it; loading it is not measured, the pyramid is.
-Lengths are those of the metric, with the smallest distance of two voxels as 1 (of the level, where
-a level is spoken of). Peers that are told how fine to be follow ours. CGAL's mesher knows no number
-of vertices: where it misses ours by more than 5 % it runs again with another radius, at most twice.
-Visits are vertices times iterations in which they were active, edits splits, collapses and flips:
-they do not depend on the machine."""
+Peers get the volume with a border of one background voxel. The time includes the pyramid but not
+loading the volume. Lengths are those of the metric, in units of the smallest voxel distance (in rows
+of a level: that of the level). Peers with a resolution parameter follow our mean edge length. CGAL's
+mesher has no parameter for the number of vertices: if it differs from ours by more than 5 % it runs
+again with another radius, at most twice. Vertex updates are vertices times iterations in which they
+were active, edits are splits, collapses and flips. Both are independent of the machine."""
 
 import math
 
@@ -16,11 +16,11 @@ from tables import (
     Figures, benchmark, finish, print_figures, print_targets, ratio, say)
 
 RUNS = {
-    "us": "vtkDeformableSurface with its pyramid, one thread",
+    "us": "vtkDeformableSurface with pyramid, one thread",
     "us-2": "the same with two threads",
-    "flat": "the same, one thread, without the pyramid",
+    "flat": "vtkDeformableSurface without pyramid, one thread",
     "flying": "vtkFlyingEdges3D",
-    "smoothed": "the same, largest component, vtkWindowedSincPolyDataFilter",
+    "smoothed": "flying, largest component, vtkWindowedSincPolyDataFilter",
     "remeshed": "smoothed, CGAL isotropic_remeshing to our mean edge",
     "mesher": "CGAL make_surface_mesh to about as many vertices as ours"}
 COLUMNS = {
@@ -28,7 +28,7 @@ COLUMNS = {
     "Vertices": "vertices", "Components": "components", "Genus": "genus",
     "Faults": "open, not manifold, not oriented", "SelfIntersections": "self-intersections",
     "EdgeShortest": "edge min", "EdgeMean": "edge mean", "EdgeLongest": "edge max",
-    "EdgesOutside": "edges outside bounds", "NearPairs": "pairs too near",
+    "EdgesOutside": "edges outside bounds", "NearPairs": "pairs too close",
     **{metric + name: metric.lower() + ": " + title for metric in ("World", "Voxels")
        for name, title in {
            "RatioLeast": "radius ratio min", "Ratio01": "radius ratio 1 %",
@@ -36,17 +36,17 @@ COLUMNS = {
            "DistanceAtCentroids": "distance at centroids"}.items()},
     "Reach": "share reached"}
 EFFORTS = {
-    "Iterations": "iterations", "VisitsOfVertex": "visits of a vertex",
-    "EditsOfVertex": "edits of a vertex", "Joins": "merges and cuts"}
+    "Iterations": "iterations", "UpdatesOfVertex": "updates per vertex",
+    "EditsOfVertex": "edits per vertex", "Joins": "merges and cuts"}
 
 
 def add_options(parser):
     parser.add_argument("volume", help=".vti")
-    parser.add_argument("--iso", required=True, help="best one that no voxel equals: 226.5")
+    parser.add_argument("--iso", required=True, help="one that no voxel has, such as 226.5")
     parser.add_argument("--metric", type=int, choices=(0, 1), default=1, help="0 voxels, 1 world")
-    parser.add_argument("--runs", metavar="LIST", help="default: all: " + ", ".join(
-        RUNS) + ", and us-N with N threads")
-    parser.add_argument("--repetitions", type=int, default=1, help="of each run, the fastest counts")
+    parser.add_argument("--runs", metavar="LIST", help="comma-separated (default: all): " + ", ".join(
+        RUNS) + "; us-N runs with N threads")
+    parser.add_argument("--repetitions", type=int, default=1, help="of each run; the fastest counts")
 
 
 def run(options, name, **named):
@@ -62,20 +62,20 @@ def run(options, name, **named):
 
 
 def like(options, name, us):
-    """A peer that is told how fine ours is."""
+    """Run a peer with a resolution that follows ours."""
     figures = run(options, name, edge=us["EdgeMean"])
     radius = .8 * us["EdgeMean"]
     for _ in range(2 if name == "mesher" else 0):
         share = figures["Vertices"] / us["Vertices"]
         if not share > 0 or abs(share - 1) <= .05:
             break
-        radius *= math.sqrt(share)  # the number goes with the inverse square
+        radius *= math.sqrt(share)  # the number of vertices is proportional to 1/radius^2
         figures = run(options, name, radius=radius)
     return figures
 
 
 def worst_of_levels(us, name, relation):
-    """Of our levels, and of which."""
+    """Return the worst figure of our levels and a text that names the level."""
     known = [(us[f"level.{h}.{name}"], h) for h in range(int(us.get("Levels", 0)))
              if not math.isnan(us[f"level.{h}.{name}"])]
     worst, h = (max if relation == "<=" else min)(known, default=(math.nan, 0))
@@ -90,10 +90,10 @@ def target_rows(runs, metric):
     rows = [
         ("S1", "us / remeshed, processor seconds", over("remeshed"), "<=", .5),
         ("S2", "us / mesher", over("mesher"), "<=", .6),
-        ("S4", "seconds for a million vertices",
+        ("S4", "seconds per million vertices",
          1e6 * ratio(us["ProcessorSeconds"], us["Vertices"]), "<=", 12),
-        ("S4", "visits of a vertex on level 0",
-         ratio(us["level.0.Visits"], us["level.0.Vertices"]), "<=", 6),
+        ("S4", "updates per vertex on level 0",
+         ratio(us["level.0.Updates"], us["level.0.Vertices"]), "<=", 6),
         ("S5", "us / flat", over("flat"), "<=", .25),
         ("S6", "seconds, us / us-2", over("us-2", "Seconds"), ">=", 1.85),
         ("S7", "MB at the peak, us / remeshed", over("remeshed", "PeakMegabytes"), "<=", .6)]
@@ -116,7 +116,7 @@ def measure(options):
     for name in names:
         us = runs.get("us", Figures())
         if name in ("remeshed", "mesher") and "EdgeMean" not in us:
-            runs[name] = Figures(Failure="follows us, which has not run")
+            runs[name] = Figures(Failure="requires the run us")
         elif name in ("remeshed", "mesher"):
             runs[name] = like(options, name, us)
         else:
@@ -128,11 +128,11 @@ def measure(options):
         levels = []
         for h in reversed(range(int(us.get("Levels", 0)))):
             level = Figures({name: us[f"level.{h}.{name}"] for name in (
-                *COLUMNS, *EFFORTS, "Visits", "Edits") if f"level.{h}.{name}" in us})
-            for effort in ("Visits", "Edits"):
+                *COLUMNS, *EFFORTS, "Updates", "Edits") if f"level.{h}.{name}" in us})
+            for effort in ("Updates", "Edits"):
                 level[effort + "OfVertex"] = ratio(level[effort], level["Vertices"])
             levels.append((f"level {h}", level))
-        print("Levels of us:\n")
+        print("Levels of the run us:\n")
         print_figures({**EFFORTS, **{name: title for name, title in COLUMNS.items()
                                      if "econds" not in name and "Mega" not in name}},
                       levels, turned=True)

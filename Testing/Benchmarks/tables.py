@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figures of runs, and tables of them."""
+"""Figures of runs and text tables of figures."""
 
 import csv
 import math
@@ -14,13 +14,13 @@ TARGET_HEADING = ["target", "what", "figure", "limit", "verdict"]
 
 
 class Figures(dict):
-    """Numbers and texts by name, of one run; NaN is a number that there is none of."""
+    """Numbers and texts of one run, by name. A missing figure is NaN."""
 
     def __missing__(self, name):
         return math.nan
 
     def take(self, line):
-        """A line "@NAME VALUE" of the program Benchmark."""
+        """Read a line "@NAME VALUE" of the program Benchmark."""
         name, _, value = line[1:].rstrip("\n").partition(" ")
         try:
             self[name] = float(value)
@@ -33,7 +33,7 @@ def words_of(named):
 
 
 def benchmark(program, **named):
-    """What `Benchmark` tells of a run in a process of its own."""
+    """Run the program Benchmark in a process of its own and return its figures."""
     process = subprocess.run([program, *words_of(named)], stdout=subprocess.PIPE, text=True,
                              check=False)
     figures = Figures()
@@ -46,23 +46,23 @@ def benchmark(program, **named):
 
 
 def timed(*command):
-    """(seconds, those of the processor, MB at the peak) of a process; RuntimeError if it fails."""
-    with tempfile.TemporaryFile() as words:
+    """Run a process; return (seconds, processor seconds, peak MB). Raise RuntimeError if it fails."""
+    with tempfile.TemporaryFile() as output:
         begin = time.monotonic()
-        process = subprocess.Popen([str(word) for word in command], stdout=words,
+        process = subprocess.Popen([str(word) for word in command], stdout=output,
                                    stderr=subprocess.STDOUT)
         _, status, usage = os.wait4(process.pid, 0)
         seconds = time.monotonic() - begin
         process.returncode = os.waitstatus_to_exitcode(status)
-        if process.returncode not in (0, 3):  # 3: there is something to be told of the surface
-            words.seek(0)
+        if process.returncode not in (0, 3):  # 3: finished with a warning
+            output.seek(0)
             raise RuntimeError(f"{os.path.basename(command[0])} failed, {process.returncode}: "
-                               + words.read().decode(errors="replace")[-300:])
+                               + output.read().decode(errors="replace")[-300:])
     return seconds, usage.ru_utime + usage.ru_stime, usage.ru_maxrss * 1024e-6
 
 
 def say(*words):
-    """To people, while they wait."""
+    """Print progress to the standard error."""
     print(*words, file=sys.stderr, flush=True)
 
 
@@ -71,20 +71,20 @@ def ratio(a, b):
 
 
 def short_text(value, digits=3):
-    """For people: so many significant digits, no exponent up to 1e15, `-` for NaN; texts as they
-    are."""
+    """Format a number with `digits` significant digits, without exponent up to 1e15; NaN is `-`.
+    Return texts unchanged."""
     if isinstance(value, str):
         return value
     if math.isnan(value):
         return "-"
     if math.isinf(value) or (value == round(value) and abs(value) < 1e15):
-        return f"{value:.0f}"  # a number of things: all of it
+        return f"{value:.0f}"  # a count: all digits
     magnitude = math.floor(math.log10(abs(value))) + 1
     return f"{value:.{digits}g}" if magnitude < -3 else f"{value:.{max(0, digits - magnitude)}f}"
 
 
 def print_table(rows, left=1):
-    """The first row underlined; the first columns to the left, all others to the right."""
+    """Print rows, the first one underlined; align the first `left` columns left, the others right."""
     widths = [max(map(len, column)) for column in zip(*rows)]
     for r, row in enumerate(rows):
         print("  ".join(text.ljust(width) if c < left else text.rjust(width)
@@ -95,7 +95,7 @@ def print_table(rows, left=1):
 
 
 def print_figures(columns, runs, turned=False):
-    """A row for each (name, figures), or a column, of {figure: heading}."""
+    """Print a row (`turned`: a column) for each (name, figures). columns: {figure: heading}."""
     rows = [["", *columns.values()]] + [
         [name + (" FAILED" if "Failure" in figures else ""),
          *(short_text(figures[column], 4 if column.endswith("Mean") else 3) for column in columns)]
@@ -104,7 +104,7 @@ def print_figures(columns, runs, turned=False):
 
 
 def target_row(name, what, figure, relation, limit):
-    """`relation`: <= or >=. What became of it: reached, missed or, for NaN, not run."""
+    """Return a row whose verdict is reached, missed or, for NaN, not run. relation: <= or >=."""
     is_reached = figure <= limit if relation == "<=" else figure >= limit
     return [name, what, short_text(figure), f"{relation} {short_text(limit)}",
             "not run" if math.isnan(figure) else "reached" if is_reached else "missed"]
@@ -116,7 +116,7 @@ def print_targets(rows):
 
 
 def finish(path, runs):
-    """All figures to a CSV, where there is a path. Exit code: 1 where a run failed."""
+    """Write all figures as CSV if `path` is given. Return the exit code: 1 if a run failed."""
     for name, figures in runs:
         if "Failure" in figures:
             say(f"{name} failed: {figures['Failure']}")

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces of all labels of a made map in chunks of Zarr, on a LocalCluster whose workers are killed.
+"""Surfaces of all labels of a generated Zarr map on a LocalCluster whose workers are killed.
 
     tasks.py map.zarr meshes --size 1024 1024 1024 --labels 200 --workers 2 --kills 10
 
-Writes the map if it is not there. Prints seconds, the peak of a worker's memory, and a sum of all
+Writes the map if it does not exist. Prints seconds, the peak memory of a worker, and a hash of all
 files, which is the same for any number of workers and kills. Needs python3-distributed, python3-zarr.
 """
 
@@ -31,23 +31,23 @@ CHUNK = 128
 
 
 def blobs(size, count):
-    """Centre and half axes of each label, x, y, z; every second touches the one before it."""
+    """Return centre and half axes of each label, x, y, z; every second touches the one before it."""
     numbers = np.random.default_rng(1)
-    pitch, places = max(size), []
-    while len(places) < count / 2:
+    pitch, points = max(size), []
+    while len(points) < count / 2:
         pitch *= 0.99
-        places = list(itertools.product(*(np.arange(pitch / 2, length - pitch / 4, pitch)
+        points = list(itertools.product(*(np.arange(pitch / 2, length - pitch / 4, pitch)
                                           for length in size)))
     made = []
-    for place in places:
+    for point in points:
         axes = numbers.uniform(0.09, 0.2, 3) * pitch
-        centre = np.array(place) + numbers.uniform(-0.1, 0.1, 3) * pitch
+        centre = np.array(point) + numbers.uniform(-0.1, 0.1, 3) * pitch
         made += [(centre, axes), (centre + (1.6 * axes[0], 0, 0), 0.8 * axes)]
     return made[:count]
 
 
 def chunk_of(made, first):
-    """Labels [z, y, x] of the chunk that begins there; None: it is empty."""
+    """Return the labels [z, y, x] of the chunk that begins at `first`; None if it is empty."""
     voxels, least = None, None
     for label, (centre, axes) in enumerate(made, 1):
         if np.any(centre + 1.3 * axes < first) or np.any(centre - 1.3 * axes > first + CHUNK):
@@ -74,7 +74,7 @@ def write_map(path, size, count):
 
 
 def measured(step, folder, kills, task):
-    """Tells the peak of this process, too; the first so many are killed on their way."""
+    """Run a step and write the peak memory of this process. The first `kills` processes are killed."""
     for number in range(kills):
         try:
             os.mkdir(os.path.join(folder, f"killed-{number}"))
@@ -88,7 +88,7 @@ def measured(step, folder, kills, task):
                        str(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024).encode())
 
 
-def sum_of(folder):
+def hash_of(folder):
     digest = hashlib.sha256()
     for name in sorted(name for name in os.listdir(folder) if name.endswith(".vtp")):
         with open(os.path.join(folder, name), "rb") as file:
@@ -98,8 +98,8 @@ def sum_of(folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("map", help=".zarr, written if it is not there")
-    parser.add_argument("folder", help="for the surfaces")
+    parser.add_argument("map", help=".zarr, written if it does not exist")
+    parser.add_argument("folder", help="folder of the surfaces")
     parser.add_argument("--size", type=int, nargs=3, default=(512, 512, 512))
     parser.add_argument("--labels", type=int, default=100)
     parser.add_argument("--workers", type=int, default=2)
@@ -115,7 +115,7 @@ def main():
     with distributed.LocalCluster(arguments.workers, threads_per_worker=1,
                                   dashboard_address=None) as cluster, \
             distributed.Client(cluster) as client:
-        # Dask gives a worker up that is killed while it starts: others take its place.
+        # Dask does not restart a worker that is killed while it starts; others replace it.
         cluster.adapt(minimum=arguments.workers, maximum=arguments.workers)
 
         def gathered(step, these):
@@ -131,9 +131,9 @@ def main():
                if entry.name.startswith("peak"))
     left = [name for _, names, _ in os.walk(arguments.folder) for name in names
             if name.startswith(files.HIDDEN)]
-    print(f"  {len(rows)} labels, {sum(row['Triangles'] for row in rows):,} triangles, sum"
-          f" {sum_of(arguments.folder)}, peak of a worker {most} MiB, killed {killed},"
-          f" left behind: {left or 'nothing'}")
+    print(f"  {len(rows)} labels, {sum(row['Triangles'] for row in rows):,} triangles, hash"
+          f" {hash_of(arguments.folder)}, peak of a worker {most} MiB, killed {killed},"
+          f" temporary files left: {left or 'none'}")
 
 
 if __name__ == "__main__":

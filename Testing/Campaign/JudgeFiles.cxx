@@ -2,23 +2,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * Judges surfaces in files, by CGAL and by what shares no code with Volumic: a line for each, words
- * and figures in the order of the line that --help prints.
+ * Judge surfaces in files with CGAL and with code that is independent of Volumic. Print a line for
+ * each file; --help prints the names of the columns.
  *
  *     JudgeFiles [--map MAP.vti] FILE.vtp...
  *
- * Edges and pairs are judged by the deltas that the file tells (where it is graded, by those of its
- * points), which are world units only where the metric is World; without any they are "nan". Ratios
- * are radius ratios.
+ * Edges and close pairs are judged by the delta in the field data, or by the deltas at the points
+ * of a graded surface. These are world units only for Metric World. Without deltas the columns are
+ * "nan". Ratios are radius ratios.
  *
- * With a map the files are surfaces of its labels, which their field data `Label` names: they are
- * judged against its voxels and all together, too: voxels whose centres are on the surface, which
- * are on either side, are told, and the numbers of the wrong voxels, x fastest, end the line.
+ * With a map, the files are surfaces of its labels, named by the field data `Label`. They are also
+ * judged together and against the voxels: `on` counts voxels whose centres are on the surface and
+ * may be on either side. The indices of the misclassified voxels, x fastest, end the line.
  */
 
+#include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
-#include "WrongVoxels.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -47,14 +47,14 @@ namespace
 {
 using namespace volumic::support;
 
-/** A surface, and what there is to say of it if it is one of labels. */
+/** A surface, its labels, and its errors against the label map. */
 struct NamedSurface : TriangleSurface
 {
   std::set<double> Labels;
-  std::vector<double> Deltas; ///< of the points; none where the file tells of none
+  std::vector<double> Deltas; ///< of the points; empty if the file has none
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
-  std::size_t CentresOn = 0;  ///< voxels
-  std::vector<std::size_t> WrongVoxels;
+  std::size_t CentresOn = 0;  ///< voxels with centres on the surface
+  std::vector<std::size_t> MisclassifiedVoxels;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -65,11 +65,11 @@ NamedSurface ReadSurface(const std::string& file)
   vtkPolyData* data = reader->GetOutput();
   if (reader->GetErrorCode() != 0 || !data)
   {
-    throw std::invalid_argument(file + " cannot be read");
+    throw std::invalid_argument("Cannot read " + file);
   }
   if (data->GetNumberOfCells() != data->GetNumberOfPolys())
   {
-    throw std::invalid_argument(file + " has other cells than polygons");
+    throw std::invalid_argument(file + " has cells that are not polygons");
   }
   NamedSurface surface;
   static_cast<TriangleSurface&>(surface) = ToTriangleSurface(data);
@@ -82,10 +82,10 @@ NamedSurface ReadSurface(const std::string& file)
   return surface;
 }
 
-/** How many voxels have their centres on the surface. */
+/** Return the number of voxels whose centres are on the surface. */
 std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<int, 3>& size)
 {
-  constexpr double little = 1e-5;
+  constexpr double tolerance = 1e-5;
   std::set<std::array<int, 3>> found;
   vtkNew<vtkTriangle> triangle;
   for (const std::array<int, 3>& corners : inIndices.Triangles)
@@ -96,8 +96,8 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
     {
       const auto at = [&](int c) { return inIndices.Points[corners[c]][axis]; };
       const auto [least, most] = std::minmax({ at(0), at(1), at(2) });
-      low[axis] = std::max(0, static_cast<int>(std::ceil(least - little)));
-      high[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(most + little)));
+      low[axis] = std::max(0, static_cast<int>(std::ceil(least - tolerance)));
+      high[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(most + tolerance)));
       triangle->GetPoints()->SetPoint(axis, inIndices.Points[corners[axis]].data());
     }
     for (std::array<int, 3> v = low; v[2] <= high[2]; ++v[2])
@@ -108,12 +108,12 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
         {
           const double centre[3] = { double(v[0]), double(v[1]), double(v[2]) };
           double nearest[3];
-          double place[3];
+          double parametric[3];
           double weights[3];
           double squared = 1.;
           int part = 0;
-          triangle->EvaluatePosition(centre, nearest, part, place, squared, weights);
-          if (squared <= little * little)
+          triangle->EvaluatePosition(centre, nearest, part, parametric, squared, weights);
+          if (squared <= tolerance * tolerance)
           {
             found.insert(v);
           }
@@ -124,7 +124,7 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
   return found.size();
 }
 
-void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
+void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -141,12 +141,12 @@ void FindWrongVoxels(NamedSurface& surface, vtkImageData* map)
     const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
     if (surface.Labels.count(label) != static_cast<std::size_t>(enclosed[v]))
     {
-      surface.WrongVoxels.push_back(v);
+      surface.MisclassifiedVoxels.push_back(v);
     }
   }
 }
 
-/** All triangles, those that two surfaces share once. */
+/** Return all triangles; a triangle shared by two surfaces occurs once. */
 TriangleSurface Together(const std::vector<NamedSurface>& surfaces)
 {
   TriangleSurface all;
@@ -185,7 +185,7 @@ void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile
   const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
   for (NamedSurface& surface : surfaces)
   {
-    FindWrongVoxels(surface, reader->GetOutput());
+    FindMisclassifiedVoxels(surface, reader->GetOutput());
     surface.Crossing = crossing;
   }
 }
@@ -215,8 +215,8 @@ void Judge(const NamedSurface& surface)
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
             << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
-            << surface.WrongVoxels.size();
-  for (const std::size_t voxel : surface.WrongVoxels)
+            << surface.MisclassifiedVoxels.size();
+  for (const std::size_t voxel : surface.MisclassifiedVoxels)
   {
     std::cout << ' ' << voxel;
   }

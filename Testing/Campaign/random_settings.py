@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Random runs of the command: a volume of random_volumes.py in a folder, and options for it."""
+"""Random runs of the command: a volume of random_volumes.py in a folder, and random options."""
 
 import os
 
@@ -23,19 +23,19 @@ def write(writer, data, folder, name):
 
 
 class RandomRun:
-    """Words of the command line, for files in `folder`, where the run is to be started."""
+    """Command-line arguments for files in `folder`, which is the working folder of the run."""
 
     def __init__(self, seed, folder, only_labels, most_voxels_of_labels=1e5):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
-        self.is_default = False  # of labels
-        self.selected = None  # of labels: None: all
+        self.is_default = False  # label maps: default settings
+        self.selected = None  # selected labels; None: all
         most_voxels = 150000 if self.chance(.05) else 25000
         self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         self.is_of_labels = only_labels or self.chance(.15)
-        self.words = (self.of_small_labels(most_voxels_of_labels) if only_labels else
-                      self.of_labels() if self.is_of_labels else self.of_surface())
-        self.words = [self.volume, *self.words, "--threads", str(self.rng.integers(1, 3))]
+        self.arguments = (self.of_small_labels(most_voxels_of_labels) if only_labels else
+                          self.of_labels() if self.is_of_labels else self.of_surface())
+        self.arguments = [self.volume, *self.arguments, "--threads", str(self.rng.integers(1, 3))]
 
     def chance(self, share):
         return self.rng.random() < share
@@ -90,10 +90,10 @@ class RandomRun:
             *smoothing, *other, *box, *self.now_and_then(.3, "--metric", "voxels"), *tolerance]
 
     def topology(self):
-        """By the voxels: of each label; of the first one if all are merged."""
+        """Return the topology of each label by its voxels; of the first one if all are merged."""
         first = self.labels[self.labels > 0].min()
-        labels = np.where(self.labels > 0, first, 0) if "--merge" in self.words else self.labels
-        return topology_of(labels, "flat" in self.words)
+        labels = np.where(self.labels > 0, first, 0) if "--merge" in self.arguments else self.labels
+        return topology_of(labels, "flat" in self.arguments)
 
     # ---- The surface of an object ----
 
@@ -101,44 +101,44 @@ class RandomRun:
         field, self.kind = random_volumes.random_field(self.rng, self.size, self.spacing)
         voxels = random_volumes.to_type(self.rng, field, self.rng.choice(random_volumes.TYPES))
         image = random_volumes.make_image(self.rng, voxels, self.spacing)
-        words = ["surface.vtp", "--levels-output", "levels", *self.iso(voxels),
-                 *self.start(image, field), *self.pyramid(), *self.stop(), *self.forces()]
+        arguments = ["surface.vtp", "--levels-output", "levels", *self.iso(voxels),
+                     *self.start(image, field), *self.pyramid(), *self.stop(), *self.forces()]
         if self.chance(.15):
             random_volumes.add_array(image, "edges", self.rng.random(voxels.shape) ** 4)
-            words += ["--edges", "edges", "--edge-attraction", self.number(.1, 3)]
-        words += self.grading()
+            arguments += ["--edges", "edges", "--edge-attraction", self.number(.1, 3)]
+        arguments += self.grading()
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
-        return words
+        return arguments
 
     def iso(self, voxels):
-        """Anywhere in the range of the voxels, or Otsu's."""
+        """Return a random iso-value in the range of the voxels, or none (Otsu's method)."""
         low, high = float(voxels.min()), float(voxels.max())
         value = low + (high - low) * self.rng.uniform(.02, .98)
         return [*self.now_and_then(.9, "--iso", f"{value:.9g}"), *self.now_and_then(.2, "--dark")]
 
     @staticmethod
-    def to_world(image, place):
+    def to_world(image, index):
         world = [0., 0., 0.]
-        image.TransformContinuousIndexToPhysicalPoint(place, world)
+        image.TransformContinuousIndexToPhysicalPoint(index, world)
         return world
 
     def start(self, image, field):
         kind = self.rng.choice(("icosahedron", "seeds", "iso-surface", "input-surface"),
                                p=(.55, .15, .15, .15))
-        words = ["--initialization", str(kind)]
+        arguments = ["--initialization", str(kind)]
         if kind == "seeds":
-            places = np.argwhere(field >= np.quantile(field, .9))  # where the object may be
-            for place in self.rng.permutation(places)[:self.rng.integers(0, 5)]:
-                point = self.to_world(image, place[::-1].astype(float))
-                words += ["--seed-position", ",".join(f"{x:.15g}" for x in point)]
-            words += self.now_and_then(
+            voxels = np.argwhere(field >= np.quantile(field, .9))  # probably in the object
+            for voxel in self.rng.permutation(voxels)[:self.rng.integers(0, 5)]:
+                point = self.to_world(image, voxel[::-1].astype(float))
+                arguments += ["--seed-position", ",".join(f"{x:.15g}" for x in point)]
+            arguments += self.now_and_then(
                 .3, "--seed-radius", f"{self.spacing.max() * self.rng.uniform(1, 5):.6g}")
         elif kind == "input-surface":
-            words += ["--initial-surface", self.given_surface(image)]
-        return words
+            arguments += ["--initial-surface", self.initial_surface(image)]
+        return arguments
 
-    def given_surface(self, image):
-        """Closed: a ball or a box of triangles of any shape, turned and stretched, in the image."""
+    def initial_surface(self, image):
+        """Write a closed ball or box, rotated and stretched, with triangles of any shape."""
         if self.chance(.5):
             source = vtkSphereSource()
             source.SetThetaResolution(int(self.rng.integers(4, 40)))
@@ -162,15 +162,16 @@ class RandomRun:
         return write(vtkXMLPolyDataWriter(), to_image.GetOutput(), self.folder, "given.vtp")
 
     def pyramid(self):
-        words = []
-        last = int(np.log(self.size.min() / 8) / np.log(3 ** .5))  # the last that has eight voxels
+        arguments = []
+        last = int(np.log(self.size.min() / 8) / np.log(3 ** .5))  # last level of eight voxels
         if self.chance(.25):
-            words += ["--finest", str(self.rng.integers(-1, min(last, 2) + 1)), "--levels",
-                      str(last + 1)]
+            arguments += ["--finest", str(self.rng.integers(-1, min(last, 2) + 1)), "--levels",
+                          str(last + 1)]
         elif self.chance(.2):
-            words += ["--coarsest", str(self.rng.integers(0, last + 1)), "--levels", str(last + 1)]
+            level = str(self.rng.integers(0, last + 1))
+            arguments += ["--coarsest", level, "--levels", str(last + 1)]
         return [
-            *words,
+            *arguments,
             *self.now_and_then(.25, "--metric", "voxels"),
             *self.now_and_then(.15, "--minimum-level-size", str(self.rng.integers(4, 16))),
             *self.now_and_then(.1, "--reduction-factor", self.number(1.2, 1.73)),
@@ -185,28 +186,27 @@ class RandomRun:
         return [*self.now_and_then(.2, "--thin-parts"), *self.tolerance()]
 
     def tolerance(self):
-        """Any, from one that cannot be kept to one of some voxels."""
-        if not self.chance(.3):
-            return []
+        """Return a random tolerance, from one that cannot be met to several voxels."""
         smallest = self.spacing.min()
-        return ["--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
-                *self.now_and_then(.3, "--gradation", self.number(.02, .3)),
-                *self.now_and_then(.3, "--maximum-edge-length",
-                                   f"{smallest * self.rng.uniform(1, 12):.3g}")]
+        return [] if not self.chance(.3) else [
+            "--tolerance", f"{smallest * 10 ** self.rng.uniform(-2, .7):.3g}",
+            *self.now_and_then(.3, "--gradation", self.number(.02, .3)),
+            *self.now_and_then(.3, "--maximum-edge-length",
+                               f"{smallest * self.rng.uniform(1, 12):.3g}")]
 
     def stop(self):
         kind = self.rng.random()
-        words = []
+        arguments = []
         if kind < .35:
-            words = ["--iterations", str(self.rng.integers(1, 11))]
+            arguments = ["--iterations", str(self.rng.integers(1, 11))]
         elif kind < .55:
-            words = ["--iterations", str(int(10 ** self.rng.uniform(1, 2.5)))]
+            arguments = ["--iterations", str(int(10 ** self.rng.uniform(1, 2.5)))]
         elif kind < .65:
-            words = ["--time-limit", f"{10 ** self.rng.uniform(-2, .5):.3g}"]
-        # Fewer where there will be many.
+            arguments = ["--time-limit", f"{10 ** self.rng.uniform(-2, .5):.3g}"]
+        # A longer interval for long runs.
         interval = int(self.rng.choice((1, 3, 7))) if kind < .35 else int(self.rng.integers(20, 90))
-        return words + self.now_and_then(.5, "--snapshots", "snapshots", "--snapshot-interval",
-                                         str(interval))
+        return arguments + self.now_and_then(.5, "--snapshots", "snapshots", "--snapshot-interval",
+                                             str(interval))
 
     def forces(self):
         return [

@@ -1,11 +1,11 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Topology of the labels of a map, counted from its voxels alone.
+"""Topology of the labels of a map, computed from its voxels alone.
 
-A label is connected through voxel faces, and across a voxel edge where its two voxels are opposite
-and the two others are of two labels, or both of one label of later rank. Rank: fewest voxels first,
-then the lower number; background and what is outside the map last. Of a cell ABCDDCBA, four labels
-at two opposite corners each, the label of first rank is connected through the corner.
+A label is connected through voxel faces. It is connected across a voxel edge if its two voxels are
+opposite and the two others have two different labels, or one label of later rank. Rank: fewest
+voxels first, then the lower number; background and the outside of the map last. In a cell ABCDDCBA,
+four labels at two opposite corners each, the label of first rank is connected through the corner.
 """
 
 import itertools
@@ -16,20 +16,20 @@ OCTANTS = list(itertools.product((0, 1), repeat=3))  # number 4 z + 2 y + x; axe
 
 
 def ring(axis, high):
-    """Octants at a side of a cell, in cyclic order."""
+    """Return the octants at a side of a cell, in cyclic order."""
     bits = [4, 2, 1]
-    own, b, c = bits[axis], *(bit for bit in bits if bit != bits[axis])
+    own, b, c = bits[axis], *(n for n in bits if n != bits[axis])
     return [high * own + n for n in (0, b, b + c, c)]
 
 
 def octants_of(voxels):
-    """[cell, octant]: the eight voxels about each corner."""
+    """Return [cell, octant]: the eight voxels around each corner."""
     ends = [[slice(o, n - 1 + o) for o, n in zip(octant, voxels.shape)] for octant in OCTANTS]
     return np.stack([voxels[tuple(end)].ravel() for end in ends], -1)
 
 
 def joined(four, rank):
-    """Which of the two diagonals of four labels in cyclic order is joined: two arrays."""
+    """Return for both diagonals of four labels in cyclic order whether they are joined."""
     a, b, c, d = four.T
     first, second = (a == c) & (a != b) & (a != d), (b == d) & (b != a) & (b != c)
     is_first = first & (~second | (rank[a] < rank[b]))
@@ -37,7 +37,7 @@ def joined(four, rank):
 
 
 def roots_of(count, pairs):
-    """Of each number from 0 on the smallest one that is connected with it."""
+    """Return for each number from 0 the smallest number connected to it."""
     a, b = np.concatenate(pairs, 1)
     root = np.arange(count)
     while True:
@@ -50,8 +50,8 @@ def roots_of(count, pairs):
 
 
 def whole_parts(voxels, most=3):
-    """A number from 0 for each voxel, the same where those of a label are joined by faces, edges or
-    corners: the parts that keep their volumes. most: 1 for faces alone."""
+    """Return the index of the part of each voxel: voxels of a label joined by faces, edges or
+    corners, whose volume is preserved. most: 1 for faces only."""
     number = np.arange(voxels.size).reshape(voxels.shape)
     links = []
     for step in itertools.product((-1, 0, 1), repeat=3):
@@ -64,26 +64,26 @@ def whole_parts(voxels, most=3):
 
 
 def parts_without(label, voxels, rank):
-    """Components of what is not of a label, by the complementary connectivity."""
+    """Return the components of the complement of a label, by the complementary connectivity."""
     cells, number = octants_of(voxels), octants_of(np.arange(voxels.size).reshape(voxels.shape))
     pairs = []
-    for axis, high in itertools.product(range(3), (0, 1)):  # twice within: no matter
-        four, places = cells[:, ring(axis, high)], number[:, ring(axis, high)]
+    for axis, high in itertools.product(range(3), (0, 1)):  # inner squares occur twice
+        four, ids = cells[:, ring(axis, high)], number[:, ring(axis, high)]
         diagonals = joined(four, rank)
         for n in range(4):
-            pairs.append((n, (n + 1) % 4, four, places, True))
+            pairs.append((n, (n + 1) % 4, four, ids, True))
         for n in (0, 1):
-            pairs.append((n, n + 2, four, places, ~diagonals[1 - n]))
+            pairs.append((n, n + 2, four, ids, ~diagonals[1 - n]))
     links = []
-    for a, b, four, places, is_open in pairs:
+    for a, b, four, ids, is_open in pairs:
         where = (four[:, a] != label) & (four[:, b] != label) & is_open
-        links.append(places[where][:, [a, b]].T)
+        links.append(ids[where][:, [a, b]].T)
     root = roots_of(voxels.size, links)
     return len(np.unique(root[voxels.ravel() != label]))
 
 
 def topology_of(labels, is_in_box=False):
-    """{label: (Euler characteristic, components, cavities)}, but of 0, the background.
+    """Return {label: (Euler characteristic, components, cavities)} without 0, the background.
 
     labels: integers [z, y, x]; is_in_box: the map ends at the sides of a box, not at background.
     """

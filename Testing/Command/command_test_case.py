@@ -1,9 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the tests of the installed program share: the program, a folder, a volume with a ball.
-
-VOLUMIC_PROGRAM names the program.
-"""
+"""Common base of the tests of the installed command, whose path is VOLUMIC_PROGRAM."""
 
 import itertools
 import json
@@ -28,16 +25,16 @@ PROGRAM = os.environ["VOLUMIC_PROGRAM"]
 
 SIZE = np.array([26, 22, 18])  # voxels along x, y, z
 SPACING, ORIGIN = np.array([0.5, 0.75, 1.0]), np.array([-7.0, 8.0, 9.5])
-# A quarter turn about z: index x is world y, index y is world -x.
+# Rotation by 90 degrees about z: index x is world y, index y is world -x.
 TURNED = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
 CENTRE, RADIUS = np.array([8.3, 12.6, 7.8]), 4.0  # of the ball; index space, world lengths
 ISO = 500.5
-PATIENCE = 600  # seconds: a machine may be busy with other things
+PATIENCE = 600  # seconds
 
 
 def ball(dtype="i2", scale=1):
-    """Voxels [z, y, x] of a ball whose surface has the value ISO; it is no mirror image of itself,
-    since its centre is off the middle along each axis."""
+    """Return voxels [z, y, x] of a ball with the iso-value ISO at its surface. Its centre is off
+    the middle, so that it is not symmetric."""
     z, y, x = np.mgrid[0:SIZE[2], 0:SIZE[1], 0:SIZE[0]]
     distance = np.sqrt(sum((s * (n - c)) ** 2 for s, n, c in zip(SPACING, (x, y, z), CENTRE)))
     values = np.clip(ISO + 100 * (RADIUS - distance), 0, 1000)
@@ -48,12 +45,12 @@ META = medical_files.meta_header(ball(), SPACING, ORIGIN, "1 0 0 0 1 0 0 0 1")  
 
 
 def nrrd_header(encoding="raw", endian="little", direction=np.eye(3)):
-    """Of the ball, without the empty line that ends it."""
+    """Return a header for the ball, without the empty line at its end."""
     return medical_files.nrrd_header(ball(), SPACING, ORIGIN, direction, encoding, endian)
 
 
 def dicom_slice(k, voxels=None, direction=np.eye(3), **changes):
-    """A file of a series of the ball, or of other voxels [z, y, x]."""
+    """Return a DICOM file of a slice of the ball or of other voxels [z, y, x]."""
     pixels = (ball() if voxels is None else voxels)[k]
     return medical_files.dicom_slice(pixels, k, SPACING, ORIGIN, direction, **changes)
 
@@ -71,8 +68,7 @@ def make_image(voxels, spacing=SPACING, origin=ORIGIN, direction=np.eye(3)):
 
 
 def largest_file(size):
-    """A preexec_fn of subprocess, which needs no rights: writing beyond the size is an error there, as
-    on a full disk."""
+    """Return a preexec_fn of subprocess that limits the file size, to simulate a full disk."""
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
@@ -80,14 +76,13 @@ def largest_file(size):
 
 
 class CommandTestCase(FolderTestCase):
-    ways = itertools.repeat(())  # options with any of which a volume is refused alike, in turn
+    ways = itertools.repeat(())  # options used in turn
 
     def ball_file(self):
         return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
 
     def run_command(self, *arguments, status=0, **options):
-        """The finished process; a test failure with its output if it ends with another status,
-        unless that is None."""
+        """Return the completed process. Fail unless it ends with this status (None: any)."""
         process = subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True,
                                  timeout=PATIENCE, check=False, **options)
         if status is not None:
@@ -95,8 +90,8 @@ class CommandTestCase(FolderTestCase):
         return process
 
     def interrupted(self, pattern, *arguments):
-        """What the program says after Ctrl-C, which comes when a line begins like the pattern. A run
-        that was quicker than that is made again."""
+        """Return the messages after Ctrl-C, sent when a line matches the pattern. Repeat runs that
+        end earlier."""
         command = [PROGRAM, *map(str, arguments), "--progress"]
         for _ in range(20):
             with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
@@ -112,7 +107,7 @@ class CommandTestCase(FolderTestCase):
         return ""
 
     def many_labels(self, count):
-        """A file with as many balls along each axis, each a label of its own."""
+        """Return a file with `count` balls along each axis, each with its own label."""
         z, y, x = np.mgrid[0:15 * count, 0:15 * count, 0:15 * count]
         voxels = 1 + (x // 15) + count * (y // 15) + count ** 2 * (z // 15)
         voxels[((x % 15 - 7) ** 2 + (y % 15 - 7) ** 2 + (z % 15 - 7) ** 2) > 50] = 0
@@ -120,11 +115,12 @@ class CommandTestCase(FolderTestCase):
                           make_image(voxels.astype("u1"), (1, 1, 1)))
 
     def report(self, *arguments, status=0):
-        """The report of a run, parsed."""
+        """Return the parsed report of a run."""
         return json.loads(self.run_command(*arguments, "--report", "-", status=status).stdout)
 
-    def refused_volume(self, name, reason, *options):
-        """By its name, for this reason, in one line, and no surface is written."""
+    def rejects_volume(self, name, reason, *options):
+        """Check that a volume is rejected in one line with its name, and that no surface is
+        written."""
         process = self.run_command(self.path(name), self.path("out.stl"), "--iso", ISO,
                                 *next(self.ways), *options, status=1)
         self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
@@ -133,8 +129,8 @@ class CommandTestCase(FolderTestCase):
     def accepted(self, name, *options):
         self.run_command(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
 
-    def refused(self, reason, *arguments, status=1, **options):
-        """The program ends with this status and says why, in one line that names itself."""
+    def rejects(self, reason, *arguments, status=1, **options):
+        """Check that the command ends with this status and one line that matches."""
         process = self.run_command(*arguments, status=status, **options)
         self.assertRegex(process.stderr, reason)
         self.assertRegex(process.stderr.strip().splitlines()[-1 if status == 1 else 0], "^volumic: ")

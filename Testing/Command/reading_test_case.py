@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of volumic.reading in this process: each file is read, or refused in one line that names
-it, in a few seconds."""
+"""Tests of volumic.reading in this process: each file is read, or rejected in one line that names
+it."""
 
 import os
 import sys
@@ -20,20 +20,20 @@ SECONDS = 20  # of the processor
 
 
 def noisy_ball(dtype="i2"):
-    """Noise does not pack well: damage in packed voxels is seldom damage of the packing."""
+    """Return a ball with noise, which compresses badly, so that damage mostly affects voxels."""
     noise = np.random.default_rng(5).integers(0, 4, ball().shape)
     return (ball() + noise).astype(dtype)
 
 
 class ReadingTestCase(FolderTestCase):
     def read(self, name, content=None, **choice):
-        """The volume of a file in the folder of the test, that is written first if it has content."""
+        """Return the volume of a file, which is first written if content is given."""
         if content is not None:
             self.write_bytes(name, bytes(content))
         return reading.read(self.path(name), **choice)
 
     def check(self, volume, voxels=None, direction=np.eye(3), spacing=SPACING, origin=ORIGIN):
-        """The volume has these voxels at these positions."""
+        """Check voxels and positions of a volume."""
         voxels = ball() if voxels is None else voxels
         np.testing.assert_array_equal(volume.array, voxels)
         self.assertEqual(volume.array.dtype, voxels.dtype)
@@ -42,8 +42,8 @@ class ReadingTestCase(FolderTestCase):
         np.testing.assert_allclose(volume.direction, direction, atol=1e-6)
         return volume
 
-    def refused(self, name, reason, content=None, **choice):
-        """The file is refused for this reason."""
+    def rejects(self, name, reason, content=None, **choice):
+        """Check that a file is rejected for this reason."""
         used = time.process_time()
         with warnings.catch_warnings():
             warnings.simplefilter("error")
@@ -54,29 +54,30 @@ class ReadingTestCase(FolderTestCase):
         self.assertRegex(text[len(self.path(name)):], reason)
         self.assertLess(time.process_time() - used, SECONDS)
 
-    def refused_with(self, name, content, changes):
-        """The content is read, but not with each of these changes: (old bytes, new bytes, reason)
-        or (place, new bytes, reason)."""
+    def rejects_with(self, name, content, changes):
+        """Check that content is read, but rejected with each change: (old bytes or offset, new
+        bytes, reason)."""
         self.read(name, content)
         for old, new, reason in changes:
             place = content.index(old) if isinstance(old, bytes) else old
             length = len(old) if isinstance(old, bytes) else len(new)
             with self.subTest(name, old=old, new=new[:30]):
-                self.refused(name, reason, content[:place] + new + content[place + length:])
+                self.rejects(name, reason, content[:place] + new + content[place + length:])
 
-    def cut(self, name, content, reason="cut off|damaged", rests=(0.1, 0.5, 0.9, -10, -1)):
-        """The whole file is read, but not this share of it, or all but so many bytes."""
+    def cut(self, name, content, reason="truncated|damaged", rests=(0.1, 0.5, 0.9, -10, -1)):
+        """Check that a file is read, but rejected if truncated to each fraction or by each number
+        of bytes."""
         self.read(name, content)
         for rest in rests:
             with self.subTest(name, rest=rest):
                 count = int(len(content) * rest) if 0 < rest < 1 else rest
-                self.refused(name, reason, content[:count])
+                self.rejects(name, reason, content[:count])
 
     def flipped(self, name, content, start):
-        """With any one bit of packed data turned over it is refused."""
+        """Check that compressed data with any bit flipped are rejected."""
         generator = np.random.default_rng(6)
         for place in generator.integers(start, len(content), 30):
             damaged = bytearray(content)
             damaged[place] ^= 1 << int(generator.integers(8))
             with self.subTest(name, place=place):
-                self.refused(name, "damaged|cut off|more than|too long|no main", damaged)
+                self.rejects(name, "damaged|truncated|exceed|too long|missing", damaged)

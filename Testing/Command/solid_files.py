@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What files of tetrahedra hold, for test_solids.py."""
+"""Readers of tetrahedral mesh files for test_solids.py."""
 
 import re
 from typing import NamedTuple
@@ -22,7 +22,7 @@ def volumes(points, corners):
 
 
 def least_angles(points, corners):
-    """Between two faces, degrees: of each tetrahedron the least."""
+    """Return the minimum dihedral angle of each tetrahedron, degrees."""
     normals = []
     for i in range(4):
         a, b, c = (points[corners[:, k]] for k in range(4) if k != i)
@@ -35,7 +35,8 @@ def least_angles(points, corners):
 
 
 def faces_between(corners, labels):
-    """{(label, label): set of faces, each its corners in order}; 0 is the outside."""
+    """Return sets of faces by pair of labels, each face with its corners in order; 0 is the
+    outside."""
     labels_at = {}
     for cell, label in zip(corners, labels):
         for i in range(4):
@@ -49,7 +50,7 @@ def faces_between(corners, labels):
 
 
 def keywords_of(path):
-    """(keyword with its parameters, rows of words) of each part of an .inp."""
+    """Return keyword with parameters, and rows, of each part of an .inp."""
     parts = []
     with open(path, encoding="utf-8") as file:
         for line in file:
@@ -68,7 +69,7 @@ class InpMesh(NamedTuple):
 
 
 def inp_mesh(path):
-    """What an .inp has; sets that list names are left out."""
+    """Return the content of an .inp, without sets of names."""
     sides = {"S1": (1, 2, 3), "S2": (1, 4, 2), "S3": (2, 4, 3), "S4": (3, 4, 1)}  # of Abaqus
     mesh = InpMesh({}, {}, {}, {})
     for head, rows in keywords_of(path):
@@ -87,8 +88,8 @@ def inp_mesh(path):
 
 
 def msh(path):
-    """Of an MSH 2.2 the positions of nodes, rows of label and corners of tetrahedra, and {name:
-    corners of triangles}; corners from 0."""
+    """Return nodes, rows of label and corners of tetrahedra, and corners of triangles by name, of
+    MSH 2.2; indices from 0."""
     sections = sections_of(path)
     nodes = np.array([line.split()[1:] for line in sections["Nodes"][1:]], float)
     rows = [list(map(int, line.split())) for line in sections["Elements"][1:]]

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Damaged pictures, slices, maps and meshes are refused in one line that names the file; so does
-the command, whatever the format. (Formats of one file: test_reading.py.)"""
+"""Tests of damaged pictures, slices, maps and meshes, in readers and command. Other formats:
+test_reading.py."""
 
 import contextlib
 import gzip
@@ -39,25 +39,23 @@ class SlicesTest(ReadingTestCase):
             with self.subTest(suffix):
                 self.read(suffix)
                 self.write_bytes(f"{suffix}/17.{suffix}", content[:len(content) * 2 // 3])
-                self.refused(suffix, rf"17\.{suffix}")
+                self.rejects(suffix, rf"17\.{suffix}")
 
     def test_maps(self):
         content = medical_files.mrc(noisy_ball(), SPACING)
         for name, packed in (("a.mrc", content), ("a.map.gz", gzip.compress(content))):
             self.check(self.read(name, packed), noisy_ball(), origin=(0, 0, 0))
             self.cut(name, packed)
-        self.refused_with("a.mrc", content, [(place, struct.pack("<i", value), ".") for place, value in (
+        self.rejects_with("a.mrc", content, [(place, struct.pack("<i", value), ".") for place, value in (
             (12, 77), (64, 7), (68, 1), (0, 0), (28, 0), (8, -18))])
 
 
 class MeshesTest(ReadingTestCase):
-    """As surfaces they would be open, as points fewer, and VTK's reader of .ply ends the process."""
-
     PLY = (b"ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
            b"property float z\nelement face 4\nproperty list uchar int vertex_indices\n"
            b"end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
 
-    def refused_mesh(self, name, content, reason="."):
+    def rejects_mesh(self, name, content, reason="."):
         self.write_bytes(name, content)
         for read in (points.read_surface, points.read_seeds, points.read_attracting_points):
             if read == points.read_surface and name.endswith(".csv"):
@@ -65,7 +63,7 @@ class MeshesTest(ReadingTestCase):
             with self.assertRaisesRegex(VolumeError, f"{name}: .*({reason})"):
                 read(self.path(name))
 
-    def test_each_format(self):
+    def test_truncated_meshes(self):
         from volumic.arrays import surface
         mesh = surface(ball("f4"), iso=ISO)
         for suffix, rests in (("vtp", (0.5, -100)), ("vtk", (0.5, -100)), ("ply", (0.2, 0.7, -1)),
@@ -78,8 +76,8 @@ class MeshesTest(ReadingTestCase):
             content = self.content(name)
             for rest in rests:
                 with self.subTest(suffix, rest=rest):
-                    self.refused_mesh(name, content[:int(len(content) * rest) if 0 < rest else rest],
-                                      "cut off|damaged|cannot read")
+                    self.rejects_mesh(name, content[:int(len(content) * rest) if 0 < rest else rest],
+                                      "truncated|damaged|cannot read")
 
     def test_polygons(self):
         self.write_bytes("a.ply", self.PLY)
@@ -88,31 +86,30 @@ class MeshesTest(ReadingTestCase):
                          (b"vertex 4", b"vertex 4000000000"), (b"3 1 2 3", b"3 1 2 4"),
                          (b"end_header", b"end_heater"), (b"0 0 1\n", b"0 0 nan\n")):
             with self.subTest(new):
-                self.refused_mesh("b.ply", self.PLY.replace(old, new))
+                self.rejects_mesh("b.ply", self.PLY.replace(old, new))
         for word in (b"solid", b"binary"):
-            self.refused_mesh("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31) + bytes(500),
-                              "cut off: it has 584 bytes")
+            self.rejects_mesh("a.stl", word.ljust(80, b"\0") + struct.pack("<I", 1 << 31) + bytes(500),
+                              "truncated: it has 584 bytes")
         for line in (b"f 1 2 4", b"f 1 2 x", b"f 1 2 0"):
-            self.refused_mesh("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + b"\n")
-        self.refused_mesh("a.xyz2", b"", "are read")
-        self.refused_mesh("a.vtp", b"<VTKFile/>")
+            self.rejects_mesh("a.obj", b"v 0 0 0\nv 1 0 0\nv 0 1 0\n" + line + b"\n")
+        self.rejects_mesh("a.xyz2", b"", "unknown mesh format")
+        self.rejects_mesh("a.vtp", b"<VTKFile/>")
 
     def test_texts(self):
-        """No line is dropped without a word."""
         for heading in (b"x,y,z\n", b"X Y Z\n", b'"x","y","z"\r\n', b"# seeds\n\nx, y, z # mm\n",
                         b"\xef\xbb\xbfx,y,z\n", b"\xef\xbb\xbf", b"\n"):
             self.write_bytes("a.csv", heading + b"1.5,2,-3\n")
             self.assertEqual(points.read_seeds(self.path("a.csv")).GetPoint(0), (1.5, 2, -3))
         for text, reason in (
-                (b"x,y,z\n1,2,3\n1,2\n", "line 3: not three"), (b"# none\n", "no points"),
+                (b"x,y,z\n1,2,3\n1,2\n", "line 3: expected three"), (b"# none\n", "no points"),
                 (b"1 2 nan\n", "line 1: 'nan' is not a number"), (b"inf 1 2\n", "line 1: 'inf'"),
                 (b"1 2 x\n1 2 3\n", "line 1: 'x' is not a number"), (b"x,y,z\n", "no points"),
                 (b"1;2;3\n1 2 3\n", "line 1: '1;2;3' is not"), (b"1.5.2 2 3\n", "line 1: '1.5.2' is"),
-                (b"1,5 2,0 3,5\n1 2 3\n", "line 1: not three"),
+                (b"1,5 2,0 3,5\n1 2 3\n", "line 1: expected three"),
                 (b"x,y,z\nx,y,z\n1 2 3\n", "line 2: 'x' is not"),
                 (b"x,y,z\n1,2,three\n", "line 2: 'three'")):
             with self.subTest(text):
-                self.refused_mesh("a.csv", text, reason)
+                self.rejects_mesh("a.csv", text, reason)
         self.write_bytes("a.csv", b"\xef\xbb\xbfx,y,z,Weight,Radius\n1,2,3\n4,5,6,7,8 # a\n")
         found = points.read_attracting_points(self.path("a.csv"))
         self.assertEqual(found.GetPoint(1), (4, 5, 6))
@@ -121,7 +118,7 @@ class MeshesTest(ReadingTestCase):
 
 
 class WorkerTest(unittest.TestCase):
-    def test_what_a_worker_returns(self):
+    def test_results_of_workers(self):
         array = in_worker("numpy:arange", 1000000)
         np.testing.assert_array_equal(array, np.arange(1000000))
         self.assertIsNotNone(array.base)  # mapped
@@ -133,7 +130,7 @@ class WorkerTest(unittest.TestCase):
         with self.assertRaises(ChildProcessError):
             os.waitpid(-1, os.WNOHANG)  # no zombie
 
-    def test_it_ends_with_its_caller(self):
+    def test_worker_ends_with_its_caller(self):
         code = "from volumic.reading.worker import in_worker; in_worker('time:sleep', 60)"
         for number in (signal.SIGINT, signal.SIGKILL):
             with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.DEVNULL,
@@ -149,7 +146,7 @@ class WorkerTest(unittest.TestCase):
 
     @staticmethod
     def group(number):
-        """The running processes of a group."""
+        """Return the running processes of a group."""
         found = []
         for name in filter(str.isdigit, os.listdir("/proc")):
             with contextlib.suppress(OSError), open(f"/proc/{name}/stat", encoding="ascii") as file:
@@ -159,49 +156,46 @@ class WorkerTest(unittest.TestCase):
 
 
 class CommandTest(CommandTestCase):
-    """What the command says of a volume that cannot be read."""
-
-    def test_one_line_and_nothing_written(self):
+    def test_damaged_volumes_fail_in_one_line(self):
         self.write_bytes("a.mha", META + ball().tobytes()[:-10])
         self.write_bytes("b.nrrd", nrrd_header("gzip") + b"\nnothing but this text")
         content = medical_files.nifti(ball(), SPACING)
         self.write_bytes("c.nii", content[:268] + struct.pack("<f", float("nan")) + content[272:])
         self.write_bytes("d.mnc", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 9)
-        for name, reason in (("a.mha", "cut off"), ("b.nrrd", "damaged"), ("c.nii", "the origin nan"),
+        for name, reason in (("a.mha", "truncated"), ("b.nrrd", "damaged"), ("c.nii", "the origin nan"),
                              ("d.mnc", "cannot be read|crashed"), ("e.vti", "no such file")):
-            self.refused_volume(name, reason)
+            self.rejects_volume(name, reason)
 
-    def test_choices_that_are_none_of_the_file(self):
+    def test_invalid_time_and_series(self):
         for option, value in (("--time", 99), ("--phase", 1), ("--series", 9)):
             with self.subTest(option):
-                self.refused(f"ball.vti: there is no {'series' if value == 9 else 'time'} {value}",
+                self.rejects(f"ball.vti: there is no {'series' if value == 9 else 'time'} {value}",
                              self.ball_file(), self.path("a.vtp"), option, value)
 
-    def test_pipes(self):
-        """They would be waited for, without end."""
+    def test_pipes_are_rejected(self):
         self.ball_file()
         for name in ("a.mha", "p.raw", "list.txt", "list.stl"):
             os.mkfifo(self.path(name))
         self.write_bytes("b.mhd", META.replace(b"LOCAL", b"p.raw"))
         self.write_bytes("b.nhdr", nrrd_header("gzip") + b"data file: p.raw\n")
         for name in ("a.mha", "b.mhd", "b.nhdr"):
-            self.refused("a pipe or a device", self.path(name), self.path("x.stl"))
+            self.rejects("a pipe or a device", self.path(name), self.path("x.stl"))
         for option, name in (("--seeds", "list.txt"), ("--attracting-points", "list.txt"),
                              ("--initial-surface", "list.stl"), ("--edges", "a.mha"),
                              ("--label-names", "list.txt")):
             with self.subTest(option):
-                self.refused(f"{name}.*: a pipe or a device", self.path("ball.vti"),
+                self.rejects(f"{name}.*: a pipe or a device", self.path("ball.vti"),
                              self.path("x.stl"), option, self.path(name),
                              *(["--labels", "all"] if option == "--label-names" else []))
-        self.refused("a pipe or a device", "/dev/null", self.path("x.stl"))
+        self.rejects("a pipe or a device", "/dev/null", self.path("x.stl"))
 
-    def test_too_little_memory(self):
+    def test_insufficient_memory(self):
         file = self.write_bytes("large.mha", META.replace(b"26 22 18", b"1024 1024 1024"))
         os.truncate(file, os.path.getsize(file) + (2 << 30))
         process = self.run_command(file, self.path("a.stl"), "--iso", "500.5", status=1,
                                    preexec_fn=lambda: resource.setrlimit(
                                        resource.RLIMIT_AS, (1500 << 20, 1500 << 20)))
-        self.assertRegex(process.stderr, "large.mha: not enough memory to read it.*crop")
+        self.assertRegex(process.stderr, "large.mha: not enough memory to read the volume; crop")
 
 
 if __name__ == "__main__":

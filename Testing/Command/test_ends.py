@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --ends`: what becomes of a surface where its object leaves the volume."""
+"""Tests of `volumic --ends`."""
 
 import shutil
 import unittest
@@ -16,7 +16,7 @@ from vtk_files import points_of, read, triangles_of
 
 
 class EndsTest(CommandTestCase):
-    """A tube of radius 5 along z through an image with turned axes and voxels of .5, .5, 1."""
+    """A tube of radius 5 along z through an image with rotated axes and spacing .5, .5, 1."""
     SPACING, ORIGIN = np.array([.5, .5, 1.]), np.array([3., 4., 5.])
 
     def tube(self, name="tube.vti", level=0):
@@ -33,7 +33,7 @@ class EndsTest(CommandTestCase):
         return surface, points_of(surface).astype(float), triangles_of(surface)
 
     def check_open(self, surface, points, triangles, planes):
-        """Its border is a circle in each of the planes."""
+        """Check that the boundary is a circle in each plane."""
         edges = Counter()
         for triangle in triangles.tolist():
             for pair in zip(triangle, triangle[1:] + triangle[:1]):
@@ -67,12 +67,13 @@ class EndsTest(CommandTestCase):
             self.assertLess(abs(heights[caps == cap] - height).max(), 1e-12)
             self.assertGreater((areas[caps == cap] * out).min(), 0)
             self.assertTrue(0.95 < areas[caps == cap].sum() * out / (np.pi * 25) < 1.02)
-        # Caps have points within, at distances that the surface has.
+        # Caps have interior points at distances of the edge length.
         sides = np.linalg.norm(np.concatenate([b - a, c - b, a - c]), axis=1).reshape(3, -1).max(0)
         self.assertLess(sides[caps > 0].max(), 1.3 * sides[caps == 0].max())
 
     def check_caps(self, surface, points, triangles):
-        """It is closed, and each cap in a plane: the caps, and the sides that they are at."""
+        """Check that the surface is closed with planar caps; return the caps and their box
+        faces."""
         edges = Counter((a, b) for triangle in triangles.tolist()
                         for a, b in zip(triangle, triangle[1:] + triangle[:1]))
         self.assertEqual(set(edges.values()), {1})
@@ -91,7 +92,8 @@ class EndsTest(CommandTestCase):
         return caps, faces
 
     def test_caps_that_meet(self):
-        """A ball about a corner of the volume, and what leaves it on all sides, with holes."""
+        """A ball around a corner of the volume, and objects that leave it on all sides, with
+        holes."""
         z, y, x = np.indices((20, 22, 24)).astype("f4")
         for values, sides in ((7 - np.sqrt(x ** 2 + y ** 2 + z ** 2), {0, 1, 3, 5}),
                               (2 - abs(4 - np.hypot(x - 12, y - 11)), {0, 5, 6}),
@@ -110,7 +112,7 @@ class EndsTest(CommandTestCase):
                 self.assertLess(abs(places - plane).max(), 1e-12)
 
     def sponge(self):
-        """Smooth noise."""
+        """Return smooth noise."""
         values = np.random.default_rng(0).standard_normal((30, 30, 30))
         for axis in (0, 1, 2, 0, 1, 2):
             values = (np.roll(values, 1, axis) + values + np.roll(values, -1, axis)) / 3
@@ -118,8 +120,7 @@ class EndsTest(CommandTestCase):
                           make_image((values / values.std()).astype("f4"), (1, 1, 1), (0, 0, 0)))
 
     def test_caps_with_many_holes(self):
-        """What is told of the surface is true of the file, and tetrahedra are as good at the caps
-        as elsewhere."""
+        """Measurements match the file, and tetrahedra at caps are as good as elsewhere."""
         files = [self.path("a.vtp")] + [self.path("a.vtu")] * bool(shutil.which("tetgen"))
         report = self.report(self.sponge(), *files, "--iso", "0", "--ends", "marked")
         surface = read(self.path("a.vtp"))
@@ -148,13 +149,13 @@ class EndsTest(CommandTestCase):
         self.assertEqual(fields.GetArray("NumberOfComponents").GetValue(0), report["components"])
         self.assertEqual(fields.GetArray("Area").GetValue(0), report["area"])
 
-    def test_counts_of_open_surfaces(self):
+    def test_measurements_of_open_surfaces(self):
         report = self.report(self.sponge(), self.path("a.vtp"), "--iso", "0", "--ends", "open")
         surface = read(self.path("a.vtp"))
         self.check_counts(report, surface, points_of(surface), triangles_of(surface))
         self.assertNotIn("volume", report)
 
-    def test_what_lies_at_the_border_alone_stays(self):
+    def test_object_at_the_border_is_kept(self):
         values = 1.2 - np.indices((20, 22, 24))[0].astype("f4")
         volume = self.write(vtkXMLImageDataWriter(), "sheet.vti",
                             make_image(values, (1, 1, 1), (0, 0, 0)))

@@ -1,8 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The program `volumic` finds a ball where it is, in volumes of several formats; and what it writes
-in each mesh format is what VTK reads from there. (Voxels of all formats: test_reading.py,
-test_microscopy.py, test_dicom.py.)"""
+"""Tests that `volumic` finds a ball at its position in several volume formats, and that all mesh
+formats store the same surface."""
 
 import gzip
 import os
@@ -26,7 +25,7 @@ import medical_files
 
 class VolumesTest(CommandTestCase):
     def check(self, volume, *options, direction=np.eye(3), spacing=SPACING, origin=ORIGIN, iso=ISO):
-        """The ball of the report lies where the file's geometry puts it, and has its size."""
+        """Check position and size of the ball in the report."""
         report = self.report(volume, "--iso", iso, "--quiet", *options)
         self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
         np.testing.assert_allclose(report["input"]["spacing"], spacing, rtol=1e-9)
@@ -34,7 +33,7 @@ class VolumesTest(CommandTestCase):
         centre = origin + direction @ (spacing * CENTRE)
         np.testing.assert_allclose(report["component_features"][0]["centroid"], centre, atol=0.05)
         whole = 4 / 3 * np.pi * RADIUS ** 3 * np.prod(spacing / SPACING)
-        # Its vertices lie on the sphere, its triangles inside.
+        # Vertices are on the sphere, triangles inside.
         self.assertTrue(0.94 < report["volume"] / whole < 1.0, report["volume"] / whole)
         return report
 
@@ -59,7 +58,7 @@ class VolumesTest(CommandTestCase):
             self.check(self.path(name), "--spacing", ",".join(map(str, SPACING)), origin=np.zeros(3))
         self.check(self.path("one"))
 
-    def test_a_component_or_the_magnitude(self):
+    def test_component_and_magnitude(self):
         image = make_image(ball())
         vectors = numpy_to_vtk(np.stack([ball() * 0 + 3, ball()], axis=-1).reshape(-1, 2), deep=True)
         vectors.SetName("vectors")
@@ -68,39 +67,39 @@ class VolumesTest(CommandTestCase):
         report = self.check(file, "--component", "1")
         self.assertEqual(report["input"]["range"], [ball().min(), ball().max()])
         self.check(file)
-        self.refused("no point array none; point arrays: vectors", file, self.path("a.stl"),
+        self.rejects("no point array none; .* --array: vectors", file, self.path("a.stl"),
                      "--array", "none")
-        told = self.run_command(file, self.path("a.stl"), "--iso", ISO).stderr
-        self.assertIn("magnitude of 2 components (--component)", told)
-        self.refused("there is no component 2; the volume has 2: 0 to 1", file, self.path("b.stl"),
-                     "--component", "2", "--iso", ISO)
+        messages = self.run_command(file, self.path("a.stl"), "--iso", ISO).stderr
+        self.assertIn("magnitude of 2 components (--component)", messages)
+        self.rejects("component 2 is out of range; the volume has 2 components, 0 to 1", file,
+                     self.path("b.stl"), "--component", "2", "--iso", ISO)
 
-    def test_nan_voxels_are_reported_or_refused(self):
+    def test_nan_voxels(self):
         voxels = ball("f4")
         voxels[:, :, -2:] = np.nan
         file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(voxels))
         for way in ([], ["--edge-length", "1.2"]):
-            told = self.run_command(file, self.path("a.stl"), "--iso", ISO, *way).stderr
-            self.assertEqual(told.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, told)
-        self.refused("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
+            messages = self.run_command(file, self.path("a.stl"), "--iso", ISO, *way).stderr
+            self.assertEqual(messages.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, messages)
+        self.rejects("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
 
-    def test_a_slice_alone(self):
+    def test_single_slice_fails(self):
         header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22").replace(
             b"1 0 0 0 1 0 0 0 1", b"1 0 0 1").replace(b"0.5 0.75 1.0", b"0.5 0.75").replace(b" 9.5", b"")
-        self.refused("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
+        self.rejects("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
             "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
 
 
 class ReportedTest(CommandTestCase):
-    def test_far_from_the_origin(self):
+    def test_coordinates_beyond_single_precision(self):
         far = make_image(ball(), SPACING * 0.1, (500000, 4000000, 300))
         volume = self.write(vtkXMLImageDataWriter(), "a.vti", far)
-        told = self.run_command(volume, self.path("b.vtk"), self.path("b.stl"), "--iso", ISO).stderr
-        self.assertRegex(told, r"warning: .*b.stl: coordinates up to 400000\d are rounded there by "
-                         r"steps of 0\.4")
-        self.assertNotIn("b.vtk: coordinates", told)
+        messages = self.run_command(volume, self.path("b.vtk"), self.path("b.stl"), "--iso", ISO).stderr
+        self.assertRegex(messages, r"warning: .*b.stl: coordinates up to 400000\d are rounded to "
+                         r"multiples of 0\.4")
+        self.assertNotIn("b.vtk: coordinates", messages)
 
-    def test_padding_of_a_ct(self):
+    def test_padding_is_ignored_by_otsu(self):
         z, y, x = np.mgrid[0:24, 0:48, 0:48]
         voxels = np.full(x.shape, -1000.0)
         voxels[((x - 24) ** 2 + (y - 24) ** 2) / 169 + ((z - 12) / 9) ** 2 < 1] = 40
@@ -111,23 +110,23 @@ class ReportedTest(CommandTestCase):
         self.assertTrue(-600 < report["iso_value"] < -300, report["iso_value"])
         self.assertLess(report["volume"], 4 / 3 * np.pi * 13 * 13 * 9, "it is the head")
         self.assertRegex(self.run_command(self.path("a.vti"), self.path("a.vtp")).stderr,
-                         "a guess by Otsu's .*voxels of -3024 are padding")
+                         "estimated by Otsu's .*without padding voxels of value -3024")
 
-    def test_values_that_no_surface_has(self):
+    def test_iso_values_without_surface_fail(self):
         self.write(vtkXMLImageDataWriter(), "flat.vti", make_image(np.full((12, 12, 12), 4, "u1")))
         self.write(vtkXMLImageDataWriter(), "mask.vti", make_image((ball() > ISO).astype("u1")))
         for name, reason, *options in (
                 ("flat.vti", "no value (separates|parts)"),
                 ("flat.vti", "no value (separates|parts)((?!set it between).)*$", "--iso", 4),
                 ("mask.vti", "at an end of the range", "--iso", 1)):
-            self.refused(reason, self.path(name), self.path("a.vtp"), *options)
+            self.rejects(reason, self.path(name), self.path("a.vtp"), *options)
 
 
 class SurfacesTest(CommandTestCase):
     READERS = {"vtp": vtkXMLPolyDataReader, "vtk": vtkPolyDataReader, "stl": vtkSTLReader,
                "ply": vtkPLYReader, "obj": vtkOBJReader}
 
-    def test_each_format_holds_the_same_surface(self):
+    def test_all_formats_store_the_same_surface(self):
         names = [self.path(f"a.{suffix}") for suffix in self.READERS]
         report = self.report(self.ball_file(), "--iso", ISO, *names)
         for suffix, reader_class in self.READERS.items():

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --labels`: one mesh of all labels, also for meshers of solids: .msh, .smesh, .poly."""
+"""Tests of the mesh of all labels, and of input files of meshers: .msh, .smesh, .poly."""
 
 import json
 import os
@@ -21,7 +21,7 @@ NAMES = {1: "liver", 2: "left kidney", 4: 'a "b"', 9: "x" * 300}
 
 
 def sectors():
-    """[z, y, x] A ball in three sectors, which meet in a line, and a hollow core."""
+    """Return a ball [z, y, x] in three sectors that meet in a line, with a hollow core."""
     z, y, x = np.indices((24, 24, 24)) - 11.5
     far = np.sqrt(x ** 2 + y ** 2 + z ** 2)
     return np.select([far < 3.5, far < 6, far > 10.5, x < 0, y < 0],
@@ -29,7 +29,8 @@ def sectors():
 
 
 def nested():
-    """A box of 1 with one of 2 in it, in which are one of 1, and one of nothing; a box apart."""
+    """Return a box of label 1 that contains label 2 with label 1 and a cavity in it, and a separate
+    box."""
     voxels = np.zeros((22, 22, 44), "i2")
     voxels[2:20, 2:20, 2:30] = 1
     voxels[5:17, 5:17, 5:27] = 2
@@ -40,7 +41,7 @@ def nested():
 
 
 def period():
-    """[z, y, x] The cells of ten points, which fill all, in a map that repeats."""
+    """Return the cells of ten points in a periodic map [z, y, x]."""
     shape = np.array((21, 24, 27))
     seeds = np.random.default_rng(5).random((10, 3)) * shape
     way = np.stack(np.indices(shape), axis=-1)[..., None, :] - seeds
@@ -61,8 +62,8 @@ class InterfacesTest(LabelsTest):
 
 
 class OneMeshTest(InterfacesTest):
-    def test_each_triangle_is_there_once(self):
-        """The contents of the files; C++ tests check the mesh itself."""
+    def test_each_triangle_is_stored_once(self):
+        """C++ tests check the mesh itself."""
         self.make(sectors(), "a.vtp", "a.vtk", "a.vtm", options=["--report", self.path("r.json")])
         mesh = read(self.path("a.vtp"))
         lines = vtk_to_numpy(mesh.GetLines().GetConnectivityArray()).reshape(-1, 2)
@@ -111,7 +112,7 @@ class OneMeshTest(InterfacesTest):
             self.assertEqual((cells.HasArray("BoundaryLabels"), cells.HasArray("Label")),
                              (mesh, not mesh))
 
-    def test_the_former_option_has_no_effect(self):
+    def test_shared_interfaces_has_no_effect(self):
         volume, files = self.map_of(sectors()), set()
         for number, more in enumerate(((), ("--shared-interfaces",))):
             process = self.run_command(volume, self.path(f"{number}.vtp"), "--labels", "all", *more)
@@ -119,7 +120,7 @@ class OneMeshTest(InterfacesTest):
             files.add(self.content(f"{number}.vtp"))
         self.assertEqual(len(files), 1)
 
-    def test_the_box(self):
+    def test_box_faces(self):
         file = self.map_file("map.vti", make_image(period(), SPACING, ORIGIN, TURNED))
         self.run_command(file, self.path("a.vtp"), "--labels", "all", "--box-faces",
                          "periodic")
@@ -129,7 +130,7 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(set(faces), set(range(7)))
         at = points[triangles_of(mesh)[faces == 2]][..., 0]
         self.assertLess(np.abs(at - (period().shape[2] - 0.5)).max(), 1e-12)
-        self.refused(r"not along y: .* differs from it in \d+ % of the voxels, .* Set --box-faces "
+        self.rejects(r"not along y: .* differs from it in \d+ % of the voxels, .* Set --box-faces "
                      "to flat", self.map_of(period()[:, :12]), self.path("o.msh"), "--labels",
                      "all", "--box-faces", "periodic")
         self.run_command(file, self.path("o/"), "--labels", "2,3", "--box-faces", "flat")
@@ -138,14 +139,14 @@ class OneMeshTest(InterfacesTest):
 
 
 def sections_of(path):
-    """{name: lines} of a .msh that is text."""
+    """Return the lines of a text .msh by section."""
     with open(path, encoding="utf-8") as file:
         return {name: lines.splitlines(True) for name, lines in re.findall(
             r"^\$(\w+)\n(.*?)^\$End\1$", file.read(), re.MULTILINE | re.DOTALL)}
 
 
 class Msh:
-    """MSH 4.1: names of groups, marks of surfaces, labels and bounds of volumes, triangles."""
+    """MSH 4.1: names of groups, groups of surfaces, labels and boundaries of volumes, triangles."""
 
     def __init__(self, path):
         sections = sections_of(path)
@@ -166,7 +167,7 @@ class Msh:
             rows[1:2 + count] = []
 
     def volume_of(self, volume):
-        """The volume that the boundary encloses, whose normals point out of it."""
+        """Return the volume enclosed by the boundary, whose normals point outward."""
         triangles = np.concatenate([self.triangles[abs(face)][:, ::1 if face > 0 else -1]
                                     for face in self.bounds[volume]])
         pairs = np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])
@@ -176,10 +177,11 @@ class Msh:
 
 
 class MeshersTest(InterfacesTest):
-    """What gmsh and TetGen make of these files is tested in test_solids.py."""
+    """test_solids.py runs gmsh and TetGen on these files."""
 
     def regions(self, name):
-        """Names in the head of a file for TetGen; marks of facets; numbers of holes; regions."""
+        """Return names in the header of a TetGen file, facet markers, number of holes, and
+        regions."""
         text = self.content(name).decode()
         rows = [line.split() for line in text.splitlines() if not line.startswith("#")]
         parts, is_poly = [], name.endswith(".poly")
@@ -191,8 +193,8 @@ class MeshersTest(InterfacesTest):
         return (re.findall(r"^# (\w+ \d+): (.*)$", text, re.M), set(map(int, marks)),
                 len(parts[2]), sorted(int(row[4]) for row in parts[3]))
 
-    def test_a_volume_for_each_region(self):
-        """No two regions may have the same surfaces, by which gmsh identifies them."""
+    def test_one_volume_per_region(self):
+        """gmsh requires that no two volumes have the same boundary."""
         for voxels, labels, faces, marks in ((sectors(), [1, 2, 4, 9], [4, 4, 4, 4], 10),
                                              (nested(), [1, 1, 2, 3], [1, 1, 2, 3], 4)):
             report = self.report(self.map_of(voxels), self.path("a.msh"), self.path("a.smesh"),
@@ -200,7 +202,7 @@ class MeshersTest(InterfacesTest):
             msh, volumes = Msh(self.path("a.msh")), Counter()
             for volume, label in msh.label_of.items():
                 volumes[label] += msh.volume_of(volume)
-            for row in report["labels"]:  # -3 is not positive, and 3 is no label
+            for row in report["labels"]:  # numbers must be positive and unused
                 self.assertAlmostEqual(volumes[abs(row["label"])] / row["volume"], 1, places=5)
             self.assertEqual(sorted(msh.label_of.values()), labels)
             self.assertEqual(sorted(map(len, msh.bounds.values())), faces)
@@ -211,8 +213,7 @@ class MeshersTest(InterfacesTest):
                 self.assertEqual(found, [set(range(1, marks + 1)), 1, labels])
         self.assertEqual(msh.names[3, 3], '"Label -3"')
 
-    def test_no_two_things_have_one_name(self):
-        """Whatever labels are called, and however much of it the file can hold."""
+    def test_names_are_unique(self):
         names = {"0": "Background", "1": "outside", "2": "x" * 25 + "1" * 9 + "x" * 25,
                  "4": "x" * 25 + "2" * 9 + "x" * 25, "9": "outside_to_outside 2"}
         self.run_command(self.map_of(sectors()), self.path("a.msh"), self.path("a.smesh"),

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --list-labels`: the labels of a volume as a table and as JSON, and no surfaces."""
+"""Tests of `volumic --list-labels`."""
 
 import unittest
 
@@ -11,14 +11,14 @@ from command_test_case import make_image
 
 
 def box_of(voxels, label):
-    """First and last index along x, y, z."""
+    """Return first and last index along x, y, z."""
     places = np.argwhere(voxels == label)[:, ::-1]
     return np.ravel(list(zip(places.min(0), places.max(0)))).tolist()
 
 
 class ListTest(LabelsTest):
     def table(self, *arguments):
-        """The lines of the table, split, below its heading."""
+        """Return the split rows of the printed table."""
         lines = self.run_command("--list-labels", *arguments).stdout.splitlines()
         self.assertRegex(lines[0], r"^ *label +voxels +volume +.*box \(first\.\.last voxel along "
                                    r"i, j, k\) +name$")
@@ -27,7 +27,7 @@ class ListTest(LabelsTest):
     def listed(self, *arguments):
         return self.report("--list-labels", *arguments)["labels"]
 
-    def test_a_table_and_as_json(self):
+    def test_table_and_json(self):
         voxels, options = label_voxels(), (self.map_file(), "--label-names", self.names_file())
         lines, rows = self.table(*options), self.listed(*options)
         surfaces = self.rows(self.map_file(), "--labels", "all")
@@ -46,13 +46,13 @@ class ListTest(LabelsTest):
             for name in ("voxels", "color", "layer"):
                 self.assertEqual(row[name], surfaces[label][name])
 
-    def test_choice(self):
+    def test_selected_labels(self):
         volume, names = self.map_file(), self.names_file()
         for options, labels in ((["--labels", "l*"], [1, 2]), (["--labels", "0,7"], [0, 7]),
                                 (["--background", "1"], [-3, 0, 2, 7])):
             rows = self.listed(volume, "--label-names", names, *options)
             self.assertEqual([row["label"] for row in rows], labels)
-        self.refused("map.vti: there is no label 'kidney'", volume, "--list-labels", "--labels",
+        self.rejects("map.vti: no label matches 'kidney'", volume, "--list-labels", "--labels",
                      "kidney")
 
     def test_floating_point_and_spacing(self):
@@ -62,9 +62,9 @@ class ListTest(LabelsTest):
         self.assertEqual(row["volume"], 3 * row["voxels"])
         self.assertEqual(report["labels"][0]["box"], box_of(label_voxels(), 7))
         half = self.map_file("h.vti", make_image(np.full((9, 9, 9), 0.5)))
-        self.refused("h.vti: .*labels must be integers", half, "--list-labels")
+        self.rejects("h.vti: .*labels must be integers", half, "--list-labels")
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
-        self.refused("more than 4096", self.map_file("many.vti", label_image(many)),
+        self.rejects("more than 4096", self.map_file("many.vti", label_image(many)),
                      "--list-labels", "--labels", "7")
 
 

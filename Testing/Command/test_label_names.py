@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Names of labels for `volumic --labels`: all kinds of files, those beside a volume, segments in
-the headers of .seg.nrrd, and files that are damaged or something else."""
+"""Tests of label names: files of all kinds, files next to a volume, .seg.nrrd headers, damaged
+files."""
 
 import gzip
 import json
@@ -27,7 +27,7 @@ SEGMENTS = ("Segment0_Name:=liver", "Segment0_LabelValue:=3", "Segment0_Color:=1
 
 
 def label_voxels():
-    """Cuboids of the labels 1, 3 and 4."""
+    """Return cuboids with labels 1, 3 and 4."""
     voxels = np.zeros((14, 14, 22), "u1")
     for label, start in ((1, 2), (3, 8), (4, 14)):
         voxels[3:11, 3:11, start:start + 6] = label
@@ -39,7 +39,7 @@ class NamesTest(CommandTestCase):
         return self.write(vtkXMLImageDataWriter(), name, make_image(label_voxels()))
 
     def names_of(self, volume, *options):
-        """{label: name} and {label: color} of the volume as the command writes it."""
+        """Return names and colours by label, as the command writes them."""
         self.run_command(volume, "--write-volume", self.path("read.vti"), *options)
         fields = read(self.path("read.vti")).GetFieldData()
         names, colors = fields.GetAbstractArray("LabelNames"), fields.GetArray("LabelColors")
@@ -49,7 +49,7 @@ class NamesTest(CommandTestCase):
                 {label: colors.GetTuple(i) for i, label in enumerate(labels)} if colors else {})
 
     def labels_in(self, text, name="names.txt"):
-        """The labels that a file of this text names."""
+        """Return the labels in a file with this text."""
         return read_label_names(self.write_bytes(
             name, text if isinstance(text, bytes) else text.encode()))
 
@@ -114,11 +114,11 @@ class FilesTest(NamesTest):
             "label,name\n1.0,liver\n3.0,Left lung\n", 'label , name\n1 , "liver" \n3,Left lung\n',
             "\ufeffLabel Value,Label Name,volume\n1,liver,33.5\n3,Left lung,3\n",
             "# made by me\nid\tregion\n1\tliver\n3\tLeft lung\n"), "a.csv")
-        # MRIcron has a number without meaning at the end of each line.
+        # MRIcron appends a meaningless number to each line.
         self.check_names(("1 liver 2001\r\n3 Left_lung 2002\r\n\r\n",
                           "1\tliver\n3\tLeft_lung\n"), second="Left_lung")
 
-    def test_texts_of_names(self):
+    def test_special_characters(self):
         for text, names in (
                 (r'{"1": "R\u00fccken \ud83e\udec1 \"a\" \\ \/ \t b"}',
                  ["R\u00fccken \U0001fac1 \"a\" \\ /   b"]),
@@ -130,72 +130,71 @@ class FilesTest(NamesTest):
             with self.subTest(text):
                 self.assertEqual([label.name for label in self.labels_in(text)], names)
 
-    def test_what_is_no_list_of_names(self):
+    def test_invalid_files(self):
         for text, reason in (
-                ("", "names no label"), ("# nothing\n", "names no label"),
+                ("", "no label names found"), ("# nothing\n", "no label names found"),
                 ("1 2 3\n4 5 6\n", "line 1 lacks .* a name"), ("1 liver\n3\n", "line 2 lacks"),
                 ("liver\nspleen\n", "line 2 lacks .* column names such as 'label'"),
                 ("label,name\n1,liver\n3\n", "line 3 lacks"), ("1,2\n3,4\n", "line 1 lacks"),
-                ("label,name\n1,liver\n2.5,x\n", "line 3 lacks a label, which is an integer"),
+                ("label,name\n1,liver\n2.5,x\n", "line 3 lacks an integer label"),
                 ("label,name\n99999999999,x\n", "line 2 lacks"),
-                ("1 liver 255 300 0\n", "colors are from 0 to 300; write them from 0 to 1 or"),
-                (b"1\0l\0i\0v\0", "not text in UTF-8"), (bytes(17 << 20), "too large"),
+                ("1 liver 255 300 0\n", "colours range from 0 to 300; use 0 to 1 or"),
+                (b"1\0l\0i\0v\0", "not UTF-8 text"), (bytes(17 << 20), "exceeds 16 MiB"),
                 ("1," + "x" * 200000, "field larger than"),
-                ('{"1": "liver",\n "3": "lu', "line 2"), ('{"liver": 1e999}', "names no label"),
-                ("[" * 1000000, "recursion depth"), ('["liver", "lung"]', "names no label"),
-                ('{"labels": {"liver": 1.5}}', "names no label"),
-                ('{"labels": ' * 60 + "{}" + "}" * 60, "names no label")):
+                ('{"1": "liver",\n "3": "lu', "line 2"), ('{"liver": 1e999}', "no label names found"),
+                ("[" * 1000000, "recursion depth"), ('["liver", "lung"]', "no label names found"),
+                ('{"labels": {"liver": 1.5}}', "no label names found"),
+                ('{"labels": ' * 60 + "{}" + "}" * 60, "no label names found")):
             with self.subTest(text[:40]):
-                with self.assertRaisesRegex(Failure, f"^{self.path('names.txt')}: names of labels "
+                with self.assertRaisesRegex(Failure, f"^{self.path('names.txt')}: label names "
                                                      f"cannot be read: .*{reason}"):
                     self.labels_in(text)
         for name in ("none.txt", ""):
-            self.refused("names of labels cannot be read: (No such file|Is a dir)", self.map_file(),
+            self.rejects("label names cannot be read: (No such file|Is a dir)", self.map_file(),
                          self.path("o/"), "--labels", "1", "--label-names", self.path(name))
 
 
-class BesideTest(NamesTest):
-    def test_usual_names(self):
+class FileNextToVolumeTest(NamesTest):
+    def test_file_names(self):
         volume = self.write_bytes("scan.nii.gz", b"")
         self.assertEqual(names_beside(volume), ([], "", []))
         os.makedirs(self.path("sub"))
         shutil.copy(volume, self.path("sub/scan.nii.gz"))
         self.write_bytes("dataset.json", b'{"labels": {"above": 1}}')
         self.assertEqual(names_beside(self.path("sub/scan.nii.gz"))[0][0].name, "above")
-        # Each takes precedence over those before it.
+        # Each takes precedence over the previous ones.
         for name in ("dataset.json", "scan.tsv", "scan.csv", "scan.json", "scan.ctbl", "scan.txt",
                      "scan.label", "scan.nii.txt"):
             file = self.write_bytes(name, f'{{"1": "from {name}"}}'.encode())
             labels, found, refused = names_beside(volume)
             self.assertEqual((labels[0].name, found, refused), (f"from {name}", file, []))
 
-    def test_they_are_reported_and_used(self):
+    def test_file_is_reported_and_used(self):
         self.write_bytes("map.json", b'{"EchoTime": 0.03, "Manufacturer": "x"}')
         self.write_bytes("map.csv", b"label,name\n3,liver\n")
         process = self.run_command(self.map_file(), self.path("o/"), "--labels", "liver")
-        self.assertRegex(process.stderr, "warning: .*map.json: names of labels cannot be read: "
-                         "the file names no label; .*; this file is skipped")
-        self.assertIn("names of labels are those of " + self.path("map.csv"), process.stderr)
+        self.assertRegex(process.stderr, "warning: .*map.json: label names cannot be read: "
+                         "no label names found; .*; the file is ignored")
+        self.assertIn("label names are read from " + self.path("map.csv"), process.stderr)
         self.assertEqual(os.listdir(self.path("o")), ["liver.vtp"])
         mine = self.write_bytes("mine.txt", b"3 mine\n")
         process = self.run_command(self.map_file(), self.path("o/"), "--labels", "mine",
                                    "--label-names", mine)
         self.assertNotIn("map.", process.stderr.replace("map.vti", ""))
 
-    def test_a_report_is_no_table_of_names(self):
-        """A second run with the same report is as the first; other runs do not read it."""
+    def test_reports_are_ignored(self):
         written = ("--report", self.path("map.json"))
         for options in (written, written, ()):
             process = self.run_command(self.map_file(), self.path("o/"), "--labels", "1", *options)
             self.assertNotIn("names", process.stderr)
-        # What was only found beside the map is no input where the run writes it.
+        # A file found next to the map is not an input if the run writes it.
         self.write_bytes("map.json", b'{"1": "liver"}')
         self.run_command(self.map_file(), self.path("o/"), "--labels", "1", *written)
         self.assertEqual(json.loads(self.content("map.json"))["labels"][0]["name"], "Label 1")
 
 
 def labelled_nifti(table):
-    """NIfTI with this text as an extension, as TotalSegmentator writes it."""
+    """Return NIfTI with this text as extension, as TotalSegmentator writes it."""
     content = bytearray(medical_files.nifti(label_voxels().astype("i2"), SPACING))
     size = (len(table) + 8 + 15) // 16 * 16
     struct.pack_into("<f", content, 108, 352 + size)
@@ -217,7 +216,7 @@ class HeadersTest(NamesTest):
         self.assertEqual(os.listdir(self.path("o")), ["a_b.vtp"])
 
     def nrrd(self, layers, *segments):
-        """A file of 3D Slicer of voxels [z, y, x, layer]."""
+        """Return a 3D Slicer file with voxels [z, y, x, layer]."""
         header = medical_files.nrrd_header(layers[..., 0], SPACING, ORIGIN, np.eye(3), "gzip",
                                            "little")
         for old, new in ((b"dimension: 3", b"dimension: 4"), (b"kinds: ", b"kinds: list "),
@@ -231,7 +230,7 @@ class HeadersTest(NamesTest):
         volume = self.nrrd(label_voxels()[..., None], *SEGMENTS)
         self.assertEqual(self.names_of(volume), ({3: "liver", 1: "Left lung"},
                                                  {3: (1, 0.5, 0), 1: (0, 0, 1)}))
-        # A file adds to them, and its names replace theirs. Colors are kept where all have one.
+        # --label-names adds and replaces names. Colours are kept if all labels have one.
         mine = self.write_bytes("mine.txt", b"3 mine\n4 more\n")
         self.assertEqual(self.names_of(volume, "--label-names", mine),
                          ({3: "mine", 1: "Left lung", 4: "more"}, {}))
@@ -273,16 +272,16 @@ class HeadersTest(NamesTest):
         self.assertIn("layer", heading.split())
         self.assertEqual([line.split()[3] for line in lines], ["0"] * 3 + ["1"] * 2)
         for name, *more in ("o.stl", "--merge"), ("o.msh",):
-            self.refused("the labels lie in several layers .* --component, or give a folder",
+            self.rejects("the labels are in several layers .* --component, or give a folder",
                          volume, self.path(name), "--labels", "1", *more)
         self.run_command(volume, self.path("o.stl"), "--labels", "1,2", "--merge", "--component", 1)
         unnamed = self.nrrd(layers)
-        for reason, *options in (("2 components; choose the one that is a label with --component",),
-                                 ("there is no component 2", "--component", "2")):
-            self.refused(reason, unnamed, self.path("o/"), "--labels", "all", *options)
+        for reason, *options in (("2 components; choose the label component with --component",),
+                                 ("--component 2 is out of range", "--component", "2")):
+            self.rejects(reason, unnamed, self.path("o/"), "--labels", "all", *options)
 
     def test_layers_of_older_files(self):
-        """Each component is a segment, and nothing states its label."""
+        """Each component is a segment without a label value."""
         layers = np.stack([label_voxels() == 1, label_voxels() == 3], axis=-1).astype("u1")
         volume = self.nrrd(layers, "Segment0_Name:=one", "Segment1_Name:=two")
         report = self.report(volume, self.path("o/"), "--labels", "all")

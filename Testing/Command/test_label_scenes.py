@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --labels`: colors and names in .ply, .glb and .3mf, read by other programs."""
+"""Tests of colours and names in .ply, .glb and .3mf, read by other programs."""
 
 import json
 import re
@@ -36,7 +36,7 @@ class ScenesTest(LabelsTest):
         return self.write_bytes("n.csv", ("label,name,color\n" + "\n".join(lines)).encode())
 
     def glb(self, name):
-        """The nodes below the root, their base colors, and their surfaces as VTK reads them."""
+        """Return the nodes below the root, their base colours, and their surfaces read by VTK."""
         data = self.content(name)
         magic, version, size, json_size, _ = struct.unpack("<4sIII4s", data[:20])
         self.assertEqual((magic, version, size), (b"glTF", 2, len(data)))
@@ -54,8 +54,8 @@ class ScenesTest(LabelsTest):
         return nodes, colors, surfaces
 
     def three_mf(self, name):
-        """The root of the model, the name of its only object, points, triangles, the name and the
-        color of each triangle's material, and the name and the triangles of PrusaSlicer's parts."""
+        """Return the model root, the object name, points, triangles, material name and colour of
+        each triangle, and names and triangles of PrusaSlicer's parts."""
         with zipfile.ZipFile(self.path(name)) as file:
             self.assertIsNone(file.testzip())
             trees = {part: ElementTree.fromstring(file.read(part)) for part in file.namelist()}
@@ -91,7 +91,7 @@ class ScenesTest(LabelsTest):
             places, triangles = points_of(surface).astype("f4"), triangles_of(surface)
             self.assertEqual(nodes[i]["extras"], {"labels": [label], "stop_reason": "converged"})
             np.testing.assert_allclose(colors[i], [*linear(COLORS[label]), 1], atol=1e-9)
-            # z upwards is y of glTF, and y is -z.
+            # z is y in glTF, y is -z.
             np.testing.assert_allclose(points_of(surfaces[i])[:, [0, 2, 1]] * (1, -1, 1), places,
                                        atol=1e-5)
             np.testing.assert_array_equal(triangles_of(surfaces[i]), triangles)
@@ -134,10 +134,10 @@ class ScenesTest(LabelsTest):
         np.testing.assert_allclose(color, [*linear((204, 204, 204)), 1])
         root, name, *_ = self.three_mf("b.3mf")
         self.assertEqual((name, root.get("unit")), ("surface", "micron"))
-        self.refused(r"u.3mf: 3MF has no unit nm; --unit mm converts", volume, self.path("u.3mf"),
+        self.rejects(r"u.3mf: 3MF does not support the unit nm", volume, self.path("u.3mf"),
                      "--iso", ISO, "--unit", "nm")
 
-    def test_what_printers_need(self):
+    def test_units_and_size_for_printing(self):
         said = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
         low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
                                  (2, 0, 1))
@@ -151,7 +151,7 @@ class ScenesTest(LabelsTest):
                                walls.min(), delta=2e-3 * walls.min())
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
-    def test_assimp_reads_it(self):
+    def test_assimp(self):
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
         said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
                               text=True, check=True).stdout

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --labels`: a surface for each label, its files, the choice of labels, errors."""
+"""Tests of `volumic --labels`: surfaces, files, selection of labels, errors."""
 
 import gzip
 import json
@@ -19,14 +19,14 @@ from volumic.label_map import KnownLabel, choose
 from volumic.option_tables import SHARED_WITH_LABELS, Filters
 from vtk_files import read, read_blocks
 
-# Centres and half axes in voxels along x, y, z; 1 and 2 touch each other.
+# Centres and half axes in voxels along x, y, z; labels 1 and 2 are adjacent.
 BLOBS = {1: ((8, 8, 8), (6, 5, 5)), 2: ((18, 8, 8), (5, 5, 5)), 7: ((8, 20, 8), (6, 4, 5)),
          -3: ((20, 20, 9), (5, 5, 6))}
 NAMES = {1: "liver", 2: "Left lung", 7: "spleen/x"}
 
 
 def label_voxels(dtype="i2", blobs=None):
-    """[z, y, x]"""
+    """Return a label map [z, y, x]."""
     z, y, x = np.mgrid[0:18, 0:28, 0:28]
     voxels = np.zeros(x.shape, dtype)
     for label, (centre, axes) in (blobs or BLOBS).items():
@@ -48,22 +48,22 @@ class LabelsTest(CommandTestCase):
         return self.write_bytes(name, text.encode())
 
     def rows(self, *arguments, status=0):
-        """{label: row of the report}"""
+        """Return report entries by label."""
         return {row["label"]: row for row in self.report(*arguments, status=status)["labels"]}
 
     def no_surfaces(self, reason, volume, *options, **others):
-        """Refused, and the folder for them is not there."""
-        self.refused(reason, volume, self.path("none/of/"), *options, **others)
+        """Check that the command fails and creates no folder."""
+        self.rejects(reason, volume, self.path("none/of/"), *options, **others)
         self.assertFalse(os.path.exists(self.path("none")))
 
     def bounds_of(self, label):
-        """Of the voxels' centres, in world coordinates, for the identity as direction."""
+        """Return the bounds of voxel centres of a label in world coordinates."""
         places = np.argwhere(label_voxels() == label)[:, ::-1] * SPACING + ORIGIN
         return np.ravel(list(zip(places.min(0), places.max(0))))
 
 
 class OutputsTest(LabelsTest):
-    def test_a_folder_has_a_file_for_each_label(self):
+    def test_folder_with_one_file_per_label(self):
         out = self.path("new/out/")
         rows = self.rows(self.map_file(), out, "--labels", "all", "--label-names",
                          self.names_file())
@@ -82,14 +82,14 @@ class OutputsTest(LabelsTest):
 
     def test_formats_and_files_of_earlier_runs(self):
         volume, names, folder = self.map_file(), self.names_file(), self.path("o")
-        # The folder is not there, and has neither a suffix nor a slash.
+        # A new folder without suffix and slash.
         options_ = ("--labels", "1,2,7", "--label-names", names)
         self.run_command(volume, folder, "--format", "stl", *options_)
         self.assertGreater(read(self.path("o/liver.stl")).GetNumberOfPolys(), 100)
         self.assertIn(b"liver", self.content("o/liver.stl")[:80])
         self.write_bytes("o/notes.txt", b"")
-        for suffix, warning in (("stl", "warning: .*o: files of an earlier run are there: "
-                                 "label-2.stl; delete what is old"), (".ply", "^((?!warning).)*$")):
+        for suffix, warning in (("stl", "warning: .*o: files of an earlier run exist: "
+                                 "label-2.stl; delete them"), (".ply", "^((?!warning).)*$")):
             os.rename(self.path("o/liver.stl"), self.path("o/label-2.stl"))
             process = self.run_command(volume, folder, "--format", suffix, *options_)
             self.assertRegex(process.stderr.replace("\n", " "), warning)
@@ -108,18 +108,19 @@ class OutputsTest(LabelsTest):
         row, = report["labels"]
         self.assertEqual((row["labels"], row["components"]), ([1, 2], 1))
 
-    def test_one_label_goes_into_one_file(self):
+    def test_single_label_in_a_file(self):
         volume = self.map_file()
         self.run_command(volume, self.path("a.stl"), "--labels", "2")
         self.assertGreater(read(self.path("a.stl")).GetNumberOfPolys(), 100)
-        self.refused(r"b.stl: 4 labels have as many surfaces: give a folder \(.*b/ --format stl\) "
-                     r"or blocks \(.*b.vtm, .*b.glb, .*b.3mf\), one mesh of all \(.*b.vtp, .vtk, "
-                     r".vtu, .inp, .msh, .smesh, .poly\), or .*--merge", volume,
+        self.rejects(r"b.stl: a .stl file stores one surface, not 4; give a folder "
+                     r"\(.*b/ --format stl\), a file with several surfaces \(.*b.vtm, .glb, "
+                     r".3mf\) or with one mesh of all labels \(.*b.vtp, .vtk, .vtu, .inp, .msh, "
+                     ".smesh, .poly\), or set --merge", volume,
                      self.path("b.stl"), "--labels", "all")
         self.assertFalse(os.path.exists(self.path("b.stl")))
 
-    def test_names_of_files_are_safe_and_different(self):
-        # Of two that differ only in the case of letters each has its number.
+    def test_file_names_are_safe_and_unique(self):
+        # Names that differ only in case get numbers.
         for folder, names, files in (
                 ("o/", {1: "../Up", 2: "up", 7: "..", -3: "C:\\con?*\u00e9 1"},
                  ["C__con__\u00e9_1.vtp", "Up-1.vtp", "label-7.vtp", "up-2.vtp"]),
@@ -130,15 +131,15 @@ class OutputsTest(LabelsTest):
                              "--label-names", file)
             self.assertEqual(sorted(os.listdir(self.path(folder))), sorted(files))
 
-    def test_what_cannot_be_written(self):
+    def test_invalid_outputs(self):
         volume = self.map_file("label-1.vti")
         os.rename(volume, self.path("label-1.vtp"))
         for name in (self.folder, self.path("label-1.vtp")):
-            self.refused("label-1.vtp", self.path("label-1.vtp"), name, "--labels", "1")
+            self.rejects("label-1.vtp", self.path("label-1.vtp"), name, "--labels", "1")
         names = self.names_file()
-        self.refused("names.json: cannot be written: it is the input", self.map_file(),
+        self.rejects("names.json: cannot be written: it is the input", self.map_file(),
                      "--labels", "1", "--label-names", names, "--report", names)
-        self.refused("names.json.*is no folder", self.map_file(), self.path("names.json/out/"),
+        self.rejects("names.json.*is no folder", self.map_file(), self.path("names.json/out/"),
                      "--labels", "1")
 
 
@@ -158,41 +159,41 @@ class ChoiceTest(unittest.TestCase):
                 self.assertEqual([label.label for label in choose([text], self.known, 0)], labels)
         self.assertEqual(len(choose(["1", "7"], self.known, 0)), 2)
 
-    def test_those_that_are_not_there(self):
+    def test_unknown_labels_fail(self):
         for text in ("99", "10-20", "1,kidney", "", "k*"):
             with self.subTest(text), self.assertRaisesRegex(Failure, (
-                    r"there is no label '[^,]*' \(--labels\); there are -3, 0, 1 liver, "
+                    r"no label matches '[^,]*' \(--labels\); the labels are -3, 0, 1 liver, "
                     "2 Left lung, 7 spleen/x")):
                 choose([text], self.known, 0)
 
 
-class WhatIsReadTest(LabelsTest):
-    def test_types_of_voxels(self):
+class InputTest(LabelsTest):
+    def test_scalar_types(self):
         resampled = label_voxels("f4")
         resampled[resampled == 7], resampled[0, 0, 0] = 6.995, np.nan
         surfaces = set()
         for name, voxels, warning in (
                 ("i8", label_voxels("i8"), "^((?!warning).)*$"),
                 ("f4", label_voxels("f4"), "warning: .*integers"),
-                ("near", resampled, r"within 0.00\d+ of integers, .*; NaN, at 1 voxel, is")):
+                ("near", resampled, r"within 0.00\d+ of integers, .*; 1 NaN voxel is")):
             process = self.run_command(self.map_file(image=label_image(voxels)), self.path(name),
                                        "--labels", "7")
             self.assertRegex(process.stderr.replace("\n", " "), warning)
             surfaces.add(self.content(f"{name}/label-7.vtp"))
         self.assertEqual(len(surfaces), 1)
 
-    def test_labels_that_no_int_holds(self):
-        """They are chosen, and files are named, by the numbers that the volume has."""
+    def test_labels_beyond_int(self):
+        """Labels are selected, and files named, by the values in the file."""
         voxels = label_voxels("i8").astype("u4")
         voxels[voxels == 7] = 2 ** 32 - 2
         volume = self.map_file("map.vti", label_image(voxels))
         process = self.run_command(volume, self.path("o"), "--labels", "1,4294967294")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
         self.assertRegex(process.stderr,
-                         "warning: .*numbered anew.*: 4294967293 is 3, 4294967294 is 4")
+                         "warning: .*renumbered.*: 4294967293 is 3, 4294967294 is 4")
 
-    def test_a_folder_of_masks(self):
-        """As TotalSegmentator writes them; each has the surface of a map of it alone."""
+    def test_folder_of_masks(self):
+        """As written by TotalSegmentator."""
         voxels = label_voxels()
         part = np.zeros_like(voxels)
         part[6:9, 6:9, 6:9] = 1
@@ -212,14 +213,14 @@ class WhatIsReadTest(LabelsTest):
         written = self.path("w.vti")
         process = self.run_command(self.path("organs/*.nii.gz"), self.path("a.vtp"), "--labels",
                                    "all", "--write-volume", written)
-        self.assertRegex(process.stderr, r"warning: .*in two masks \(liver and part 27\): the ")
-        self.assertIn("masks without a voxel: absent", process.stderr)
+        self.assertRegex(process.stderr, r"warning: .*27 overlapping voxels \(liver and part 27\) ")
+        self.assertIn("empty masks: absent", process.stderr)
         listed = self.report(written, "--list-labels")["labels"]
         voxels_of["liver"] -= 27
         self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"] > 0},
                          voxels_of)
 
-    def test_values_that_are_no_labels(self):
+    def test_invalid_label_maps(self):
         voxels = label_voxels("f4")
         voxels[3, 3, 3] = 0.5
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
@@ -227,10 +228,10 @@ class WhatIsReadTest(LabelsTest):
                 ("map.vti: .*0.5; labels must be integers", voxels, "all"),
                 ("map.vti: .*more than 4096", many, "all"),
                 ("map.vti: .*has no label 99999", many, "7,99999"),
-                ("map.vti: it has no label but the background, 0; .*--background",
+                ("map.vti: the only label is the background, 0; .*--background",
                  np.zeros((9, 9, 9), "u1"), "all"),
-                ("map.vti: there is no label '9'", label_voxels(), "9"),
-                ("one slice", label_voxels()[8:9], "all")):
+                ("map.vti: no label matches '9'", label_voxels(), "9"),
+                ("single slice", label_voxels()[8:9], "all")):
             with self.subTest(reason):
                 self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
                                  labels)
@@ -267,25 +268,25 @@ class OptionsTest(LabelsTest):
                        != getattr(before.labels, "Get" + each)()}
             self.assertEqual(changed, {name} - {"SelectedComponent", "SharedInterfaces"})
 
-    def test_what_excludes_what(self):
-        refused = [(f"(--labels and {option}|{option}( .*)? and --labels) exclude each other",
-                    "out/ --labels 1", option, *value) for option, *value in (
+    def test_incompatible_options(self):
+        cases = [(f"(--labels and {option}|{option}( .*)? and --labels) are mutually exclusive",
+                  "out/ --labels 1", option, *value) for option, *value in (
                         ("--iso", "3"), ("--dark",), ("--seeds", "a.txt"), ("--history", "h.csv"),
                         ("--seed-position", "1,2,3"), ("--levels", "2"), ("--keep", "at-points"))]
-        refused += [(f"{option} needs --labels", "out.stl", option, *value) for option, *value in (
+        cases += [(f"{option} requires --labels", "out.stl", option, *value) for option, *value in (
             ("--merge",), ("--box-faces", "flat"), ("--format", "stl"), ("--label-names", "n"))]
         for reason, line in (
-                ("no surface format", "o/ --format dwg"), ("o.v1: no surface format", "o.v1"),
-                ("'2' is not the name of a file; write a list of labels with commas", "o.vtp 2 3"),
-                ("'2-3' is not the name of a file; write .*--labels 1,2-3.*", "2-3"),
-                ("'liver' is not the name of a file; .* a folder with a slash", "o.vtp liver"),
-                ("--format is that of the files in a folder", "o.stl --format stl"),
-                ("the standard output", "-"), ("no file to write", ""),
-                ("--thin-parts and --labels exclude each other; --edge-length", "o/ --thin-parts"),
-                ("--gap is gone: labels that touch share", "o/ --gap 1"),
-                ("--merge makes one surface; give a file", "o/ --merge")):
-            refused.append((reason, "--labels 1 " + line))
-        for reason, line, *more in refused:
+                ("unknown suffix", "o/ --format dwg"), ("o.v1: unknown suffix", "o.v1"),
+                ("'2' is not a file name; separate labels by commas", "o.vtp 2 3"),
+                ("'2-3' is not a file name; .*--labels 1,2-3.*", "2-3"),
+                ("'liver' is not a file name; .* end a folder with a slash", "o.vtp liver"),
+                ("--format requires a folder as output", "o.stl --format stl"),
+                ("the standard output", "-"), ("no output is given", ""),
+                ("--thin-parts and --labels .* use --edge-length", "o/ --thin-parts"),
+                ("--gap is not supported: adjacent labels share", "o/ --gap 1"),
+                ("--merge yields one surface; give a file", "o/ --merge")):
+            cases.append((reason, "--labels 1 " + line))
+        for reason, line, *more in cases:
             with self.subTest(line, more=more), self.assertRaisesRegex(UsageError, reason):
                 options.parse(["a.vti", *line.split(), *more])
 
@@ -298,14 +299,14 @@ class OptionsTest(LabelsTest):
             self.assertEqual(sorted(os.listdir(self.path(f"o{number}"))),
                              ["label-1.vtp", "label-9.vtp"])
         for reason, *more in (
-                ("none of the labels has a surface", "--keep", "large",
+                ("the surfaces of all labels are empty", "--keep", "large",
                  "--minimum-component-volume", "99"),
                 ("dot.vti: --smoothing is -1", "--smoothing", "-1")):
             self.no_surfaces(reason, volume, "--labels", "9", *more)
 
 
 class RunTest(LabelsTest):
-    def test_an_isosurface_of_a_label_map_is_reported(self):
+    def test_isosurface_of_a_label_map_warns(self):
         for count, volume, *more in (
                 (1, self.map_file(), self.path("a.stl"), "--iso", "0.5"),
                 (1, self.map_file(), self.path("a.stl"), "--iso", "0.5", "--edge-length", "1.2"),
@@ -314,11 +315,11 @@ class RunTest(LabelsTest):
             process = self.run_command(volume, *more)
             self.assertEqual(process.stderr.count("looks like a label map"), count, process.stderr)
 
-    def test_interrupt_keeps_what_is_there(self):
+    def test_interrupted_run_writes_surfaces(self):
         rest = self.interrupted(
-            r"Making surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
+            r"Computing surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
             "all", "--threads", "1", "--finest", "-1", "--report", self.path("r.json"))
-        self.assertIn("unfinished (cancelled); the surfaces as they are were written", rest)
+        self.assertIn("unfinished (cancelled): the current surfaces were written", rest)
         report = json.loads(self.content("r.json"))
         self.assertFalse(report["finished"])
         self.assertEqual(len(report["labels"]), 64)
@@ -326,8 +327,8 @@ class RunTest(LabelsTest):
         written = {name for row in report["labels"] for name in row["files"]}
         self.assertEqual({self.path("o/") + name for name in os.listdir(self.path("o"))}, written)
 
-    def test_a_time_limit(self):
-        self.no_surfaces("the time limit came before there was a surface", self.many_labels(4),
+    def test_time_limit(self):
+        self.no_surfaces("time limit reached before a surface was computed", self.many_labels(4),
                          "--labels", "all", "--time-limit", "1e-9")
 
 

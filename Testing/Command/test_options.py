@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The options of the command: each property has one, and each has its effect; exit codes and
-interruption."""
+"""Tests of the options of the command, exit codes and interruption."""
 
 import csv
 import json
@@ -25,7 +24,7 @@ from volumic.errors import UsageError
 from volumic.option_tables import PROPERTIES, Filters
 from vtk_files import read
 
-# What is set in another way: inputs, and what of the pyramid is the surface's.
+# Properties without an option: inputs, and properties set elsewhere.
 NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurfaceData",
                                         "AttractingPointsConnection", "AttractingPointsData",
                                         "ShowLevels", "UseUpperValue", "MemoryLimit",
@@ -35,7 +34,7 @@ NOT_OPTIONS = {"vtkDeformableSurface": {"InitialSurfaceConnection", "InitialSurf
 
 
 def properties_of(filter_class, base_class):
-    """Names of the class's own Set methods, without those of one value of an enumeration."""
+    """Return names of the class's own Set methods, without those of enumeration values."""
     names = {name[3:] for name in dir(filter_class)
              if name.startswith("Set") and not hasattr(base_class, name)}
     return {n for n in names if not any(n.startswith(m + "To") for m in names)}
@@ -49,13 +48,13 @@ class OptionTableTest(CommandTestCase):
             name = filter_class.__name__
             in_table = [item.name for item in PROPERTIES if item.cls == name]
             self.assertEqual(len(in_table), len(set(in_table)), "a property has two options")
-            # Those that it has in common with vtkDeformableSurface have their option there.
+            # Properties shared with vtkDeformableSurface have one option.
             common = {item.name for item in PROPERTIES
                       if item.cls == "vtkDeformableSurface" and item.cls != name}
             self.assertEqual(set(in_table),
                              properties_of(filter_class, base) - NOT_OPTIONS[name] - common)
 
-    def test_every_option_sets_its_property_and_no_other(self):
+    def test_every_option_sets_only_its_property(self):
         values = {
             "iso": "400", "upper": "900", "reduction-factor": "1.5", "sampling-ratio": "0.9",
             "levels": "2", "coarsest": "0", "finest": "2", "minimum-level-size": "12",
@@ -76,72 +75,75 @@ class OptionTableTest(CommandTestCase):
                 options.apply(options.parse(line), filters)
                 after = report.property_values(filters, lambda item: True)
                 self.assertEqual({n for n in after if after[n] != before[n]},
-                                 {item.name} - {"SharedInterfaces"})  # it is on
+                                 {item.name} - {"SharedInterfaces"})  # always on
                 if item.metavar:
                     self.assertEqual(after[item.name], text)
 
-    def test_wrong_usage(self):
+    def test_usage_errors(self):
         for reason, line in (
-                ("no volume", ""), ("no file to write", "a.vti"),
+                ("VOLUME is missing", ""), ("no output is given", "a.vti"),
                 ("unknown option --isoo", "--isoo 3"), ("unknown option -z", "-z"),
-                ("--iso needs", "a b.stl --iso"),
+                ("--iso requires an argument", "a b.stl --iso"),
                 ("--iso: 'x' is not a number", "a b.stl --iso x"),
-                ("--levels: '2.5' is not a whole number", "a b.stl --levels=2.5"),
+                ("--levels: '2.5' is not an integer", "a b.stl --levels=2.5"),
                 ("--dark takes no", "a b.stl --dark=on"),
-                (r"--recovery: 'all' is none of none\|objects", "a b.stl --recovery all"),
-                ("--spacing: .* are 2 numbers, not 3", "a b.stl --spacing 1,2"),
-                ("--memory is gone: .*--scratch", "a b.stl --memory 2G"),
-                ("--resume is gone", "a b.stl --resume"),
-                ("--profile is gone", "a b.stl --profile"),
+                (r"--recovery: 'all' is not one of none\|objects", "a b.stl --recovery all"),
+                ("--spacing: .* has 2 numbers instead of 3", "a b.stl --spacing 1,2"),
+                ("--memory is not supported: .*--scratch", "a b.stl --memory 2G"),
+                ("--resume is not supported", "a b.stl --resume"),
+                ("--profile is not supported", "a b.stl --profile"),
                 ("did you mean --iso", "a b.stl --ios 3"),
                 ("--time: -1 is less than 0", "a b.stl --time -1"),
                 ("--threads: '-1' is out of range", "a b.stl --threads -1"),
-                ("--time and --phase exclude", "a b.stl --time 1 --phase 1"),
-                ("--edge-attraction needs", "a b.stl --edge-attraction 1"),
-                ("exclude each other", "a b.stl --seeds c --initial-surface d"),
-                ("--seed-position: .* are 2 numbers", "a b.stl --seed-position 1,2"),
-                ("exclude each other", "a b.stl --seed-position 1,2,3 --initial-surface d"),
-                ("out.stl: --list-labels makes no surfaces", "a --list-labels out.stl"),
-                ("--merge and --list-labels exclude each other", "a --list-labels --merge"),
-                ("--list-labels and --format exclude", "a --list-labels --format stl"),
-                ("--iso and --list-labels exclude", "a --list-labels --iso 3"),
-                ("--list-labels and --seeds exclude", "a --list-labels --seeds a.txt"),
-                ("no volume is given", "--list-labels"),
-                ("--scale: 0 must be more than 0", "a b.stl --scale 0"),
-                ("--unit: 'inch' is none of m, cm, mm", "a b.stl --unit inch"),
-                ("--space: 'XYZ' is none of LPS, RAS, as-file", "a b.stl --space XYZ"),
-                ("--scale and --unit exclude", "a b.stl --scale 2 --unit mm"),
-                ("'none' is none of closed, marked, open", "a b.vtp --ends none"),
-                ("--ends open and files of solids, which are closed", "a b.smesh --ends open"),
-                ("'netgen' is none of tetgen, gmsh", "a b.stl --mesher netgen"),
-                ("--mesher needs a file of tetrahedra", "a b.stl --mesher gmsh"),
-                ("needs a file of tetrahedra", "a b.stl --maximum-volume 2"),
-                ("--triangles and --tolerance exclude", "a b.vtp --triangles 999 --tolerance .1"),
+                ("--time and --phase are mutually exclusive", "a b.stl --time 1 --phase 1"),
+                ("--edge-attraction requires --edges", "a b.stl --edge-attraction 1"),
+                ("are mutually exclusive", "a b.stl --seeds c --initial-surface d"),
+                ("--seed-position: .* has 2 numbers", "a b.stl --seed-position 1,2"),
+                ("are mutually exclusive", "a b.stl --seed-position 1,2,3 --initial-surface d"),
+                ("out.stl: --list-labels writes no surfaces", "a --list-labels out.stl"),
+                ("--merge and --list-labels are mutually exclusive", "a --list-labels --merge"),
+                ("--list-labels and --format are mutually exclusive", "a --list-labels --format stl"),
+                ("--iso and --list-labels are mutually exclusive", "a --list-labels --iso 3"),
+                ("--list-labels and --seeds are mutually exclusive", "a --list-labels --seeds a.txt"),
+                ("VOLUME is missing", "--list-labels"),
+                ("--scale: 0 is not greater than 0", "a b.stl --scale 0"),
+                ("--unit: 'inch' is not one of m, cm, mm", "a b.stl --unit inch"),
+                ("--space: 'XYZ' is not one of LPS, RAS, as-file", "a b.stl --space XYZ"),
+                ("--scale and --unit are mutually exclusive", "a b.stl --scale 2 --unit mm"),
+                ("'none' is not one of closed, marked, open", "a b.vtp --ends none"),
+                ("b.smesh: tetrahedral meshers require a closed surface", "a b.smesh --ends open"),
+                ("'netgen' is not one of tetgen, gmsh", "a b.stl --mesher netgen"),
+                ("--mesher requires a tetrahedral mesh", "a b.stl --mesher gmsh"),
+                ("requires a tetrahedral mesh as output", "a b.stl --maximum-volume 2"),
+                ("--triangles and --tolerance are mutually exclusive",
+                 "a b.vtp --triangles 999 --tolerance .1"),
                 ("--triangles: 19 is less than 20", "a b.vtp --triangles 19"),
-                ("--region: .* ends before it begins", "a b.vtp --region 5,4,0,5,0,5"),
-                ("--region: '4.5' is not a whole number", "a b.vtp --region 0,4.5,0,5,0,5"),
-                ("--region and --region-box exclude",
+                ("--region: .* a minimum exceeds its maximum", "a b.vtp --region 5,4,0,5,0,5"),
+                ("--region: '4.5' is not an integer", "a b.vtp --region 0,4.5,0,5,0,5"),
+                ("--region and --region-box are mutually exclusive",
                  "a b.vtp --region 0,4,0,5,0,5 --region-box 0,1,0,1,0,1"),
-                ("--edges and --resample exclude", "a b.vtp --edges a --resample 1,1,1"),
-                ("--resample and --isotropic exclude", "a b.vtp --resample 1,1,1 --isotropic"),
-                ("--resample: 0 must be more than 0", "a b.vtp --resample 1,0,1"),
-                ("--probe-depth needs --probe", "a b.vtp --probe-depth 1")):
+                ("--edges and --resample are mutually exclusive",
+                 "a b.vtp --edges a --resample 1,1,1"),
+                ("--resample and --isotropic are mutually exclusive",
+                 "a b.vtp --resample 1,1,1 --isotropic"),
+                ("--resample: 0 is not greater than 0", "a b.vtp --resample 1,0,1"),
+                ("--probe-depth requires --probe", "a b.vtp --probe-depth 1")):
             with self.subTest(line), self.assertRaisesRegex(UsageError, reason):
                 options.apply(options.parse(line.split()), Filters())
-        self.refused("suffix.*known are", "a", "b.xyz", status=2)
+        self.rejects("unknown suffix of a surface format", "a", "b.xyz", status=2)
 
-    def test_values_that_the_filter_refuses(self):
+    def test_invalid_property_values(self):
         for reason, *options in (
-                ("--upper is 300, but --iso is 500.5; it must be more", "--upper", "300"),
+                ("--upper is 300, but --iso is 500.5. Set --upper to more", "--upper", "300"),
                 ("no voxel is between --iso, 500.5, and --upper, 500.6", "--upper", "500.6"),
                 ("--friction is -1, it must lie in", "--friction", "-1"),
                 ("--edge-length is 0.01, but edges of this image can have mean lengths of",
                  "--edge-length", "0.01"),
-                ("--tolerance is 1, but --no-snap is given: the surface", "--tolerance", "1",
+                ("--tolerance is 1, but --no-snap is given, so the surface", "--tolerance", "1",
                  "--no-snap"),
                 ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
                  "--thin-parts", "--edge-length", "1")):
-            self.refused(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
+            self.rejects(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
 
 class HelpTest(CommandTestCase):
@@ -152,7 +154,7 @@ class HelpTest(CommandTestCase):
         self.assertLessEqual(max(map(len, text.splitlines())), 80)
         self.assertRegex(re.sub(r"\s+", " ", text), r"--reduction-factor T .*\(default: 1.732")
 
-    def test_a_closed_pipe_is_no_error(self):
+    def test_closed_pipe(self):
         done = subprocess.run(["sh", "-c", f"'{PROGRAM}' --help | head -1"], capture_output=True,
                               text=True, check=True)
         self.assertEqual((done.stderr, done.stdout[:6]), ("", "usage:"))
@@ -185,8 +187,8 @@ class RunTest(CommandTestCase):
                       "--levels", "2")
         self.assertEqual(sorted(os.listdir(self.path("levels"))), ["level-0.vtp", "level-1.vtp"])
 
-    def test_advice_names_options(self):
-        """Where much stays lost: sheets of one voxel beside a ball."""
+    def test_warnings_name_options(self):
+        """Many missed parts: sheets of one voxel next to a ball."""
         z, y, x = np.mgrid[0:64, 0:64, 0:64]
         distance = np.sqrt((x - 32) ** 2 + (y - 32) ** 2 + (z - 32) ** 2)
         voxels = np.clip(ISO + 100 * (16 - distance), 0, 1000).astype("i2")
@@ -195,10 +197,10 @@ class RunTest(CommandTestCase):
         process = self.run_command(volume, self.path("a.vtp"), "--iso", ISO)
         self.assertRegex(process.stderr, "warning: .*of the object's boundary.* Set --finest to -1")
 
-    def test_iso_value_by_otsu_is_told(self):
+    def test_otsu_threshold_is_printed(self):
         process = self.run_command(self.ball_file(), self.path("a.vtp"))
-        told = re.search(r"iso-value ([0-9.]+), a guess by Otsu", process.stderr)
-        self.assertTrue(100 < float(told.group(1)) < 900)
+        printed = re.search(r"iso-value ([0-9.]+), estimated by Otsu", process.stderr)
+        self.assertTrue(100 < float(printed.group(1)) < 900)
         self.assertEqual(self.run_command(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
 
     def test_seeds_and_initial_surface(self):
@@ -214,7 +216,6 @@ class RunTest(CommandTestCase):
         self.assertLess(again["iterations"], seeded["iterations"])
 
     def test_attracting_points(self):
-        """A point of weight 1 makes a ball of its radius part of the object."""
         point, radius = ORIGIN + SPACING * [20, 5, 13], 2.0
         self.write_bytes("points.txt", " ".join(map(str, [*point, 1, radius])).encode())
         options = (self.ball_file(), "--iso", ISO, "--levels", "1", "--minimum-part-size", "5",
@@ -231,7 +232,7 @@ class RunTest(CommandTestCase):
         whole = 4 / 3 * np.pi * radius ** 3
         self.assertTrue(0.8 < found["volume"] / whole < 1.1, found)
 
-    def test_edges_as_an_array_or_a_file(self):
+    def test_edge_map_as_array_or_file(self):
         image = make_image(ball("f4"))
         magnitude = np.sqrt(sum(np.square(g) for g in np.gradient(
             ball("f4"), *SPACING[::-1])))
@@ -248,23 +249,23 @@ class RunTest(CommandTestCase):
         from_array = self.report(both, "--iso", ISO, "--edges", "gradient")
         self.assertAlmostEqual(from_array["volume"] / from_file["volume"], 1.0, delta=0.02)
         small = self.write(vtkXMLImageDataWriter(), "small.vti", make_image(ball()[1:]))
-        self.refused("its size differs", self.ball_file(), self.path("a.stl"), "--edges", small)
+        self.rejects("its dimensions differ", self.ball_file(), self.path("a.stl"), "--edges", small)
 
-    def test_time_limit_is_marked(self):
+    def test_time_limit(self):
         volume = self.waves_file()
-        for limit in (0.6, 3, 15, 75, 375):  # A busy machine has no surface so soon.
+        for limit in (0.6, 3, 15, 75, 375):  # A busy machine needs more time.
             run = self.run_command(volume, self.path("limited.stl"), "--iso", "0", "--convergence",
                                 "0", "--time-limit", limit, status=None)
             if run.returncode == 3:
                 break
-        self.assertIn("unfinished (time limit); the surface as it is was written", run.stderr)
+        self.assertIn("unfinished (time limit): the current surface was written", run.stderr)
         self.assertIn(b"UNFINISHED: time limit", self.content("limited.stl")[:80])
-        self.refused("time limit came before there was a surface", volume, self.path("none.stl"),
+        self.rejects("time limit reached before a surface was computed", volume, self.path("none.stl"),
                      "--iso", "0", "--time-limit", "1e-9")
         self.assertFalse(os.path.exists(self.path("none.stl")))
 
     def waves_file(self):
-        """A large noisy volume, so that there is time."""
+        """Return a large noisy volume with a long run time."""
         noise = np.random.default_rng(2).normal(0, 120, (100, 100, 100))
         z, y, x = np.mgrid[0:100, 0:100, 0:100] - 49.5
         waves = 300 * (np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)) + noise
@@ -272,7 +273,7 @@ class RunTest(CommandTestCase):
                           make_image(waves.astype("f4"), (1, 1, 1)))
 
     def test_two_signals_at_once_are_one(self):
-        """As `timeout` sends them, to the process and to its group."""
+        """`timeout` signals the process and its group."""
         command = [PROGRAM, self.waves_file(), self.path("a.vtp"), "--iso", "0", "--convergence",
                    "0", "--progress"]
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
@@ -286,7 +287,7 @@ class RunTest(CommandTestCase):
         self.assertEqual(process.returncode, 3, rest)
         self.assertGreater(read(self.path("a.vtp")).GetNumberOfPolys(), 0)
 
-    def test_interrupt_writes_what_there_is(self):
+    def test_interrupted_run_writes_surface(self):
         rest = self.interrupted(
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
             "--convergence", "0", "--report", self.path("r.json"))

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that `volumic` writes are complete or not there, and never replace an input."""
+"""Tests that written files are complete and never replace an input."""
 
 import json
 import os
@@ -41,7 +41,7 @@ class OutputsTest(CommandTestCase):
 
 
 class FullDiskTest(OutputsTest):
-    def test_the_old_file_survives(self):
+    def test_existing_file_is_kept(self):
         options = {"v.vti": ["--write-volume"], "h.csv": ["--history"], "r.json": ["--report"],
                    "l.vtm": ["--levels-output"], **{f"a.{suffix}": [] for suffix in SURFACES}}
         self.segment(*(word for name in options for word in (*options[name], self.path(name))))
@@ -58,7 +58,7 @@ class FullDiskTest(OutputsTest):
                                  r"\(.*(File too large|is the disk full\?)\)")
                 self.assertEqual((self.content(name), self.hidden_files()), (OLD, []))
 
-    def test_a_folder_that_stays_empty_is_removed(self):
+    def test_empty_folder_is_removed(self):
         labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
                             make_image((ball() > ISO).astype("u1")))
         for arguments in ([self.volume, "--levels-output", self.path("l"), "--iso", ISO],
@@ -91,7 +91,7 @@ class FullDiskTest(OutputsTest):
 
 class ManyTest(OutputsTest):
 
-    def test_runs_at_the_same_time(self):
+    def test_concurrent_runs(self):
         words = [PROGRAM, *self.words, self.path("a.obj"), "--levels-output", self.path("l.vtm"),
                  "--snapshots", self.path("s")]
         processes = [subprocess.Popen(words) for _ in range(4)]
@@ -102,15 +102,15 @@ class ManyTest(OutputsTest):
         self.assertEqual(set(os.listdir(self.folder)), {"a.obj", "ball.vti", "l", "l.vtm", "s"})
 
 
-class RefusedTest(OutputsTest):
-    """Names are refused before the volume, which is no image here, is read."""
+class InvalidNamesTest(OutputsTest):
+    """Output names are checked before the volume, which is invalid here, is read."""
 
     def setUp(self):
         super().setUp()
         self.no_image = self.write_bytes("no.vti", b"nothing")
 
-    def refused_at_once(self, reason, *lines):
-        """Words of the lines that are no options are names in the folder."""
+    def rejects_at_once(self, reason, *lines):
+        """Check that the command fails. Arguments other than options are names in the folder."""
         for line in lines:
             with self.subTest(line):
                 process = self.run_command(self.no_image, *(
@@ -125,26 +125,26 @@ class RefusedTest(OutputsTest):
         os.mkdir(self.path("levels"))
         for name in ("a.stl", "b.csv", "c.vti", "levels/level-2.vtp", "levels/levels_0.vtp"):
             self.write_bytes(name, b"1,2,3")
-        self.refused_at_once(
+        self.rejects_at_once(
             "is the input", "--report no.vti", "--report hard.json", "--history soft.csv",
             "--initial-surface a.stl a.stl", "--seeds b.csv --history b.csv",
             "--attracting-points b.csv --history ./b.csv", "--edges c.vti --report c.vti",
             "--initial-surface levels/level-2.vtp --levels-output levels",
             "--initial-surface levels/levels_0.vtp --levels-output levels.vtm")
 
-    def test_the_other_files_of_a_volume(self):
+    def test_companion_files_are_not_replaced(self):
         os.mkdir(self.path("series"))
         self.write_bytes("a.mhd", b"ElementDataFile = LIST\n a1.raw\na2.raw\n")
         self.write_bytes("b.img", b"")
         for volume, data in (("a.mhd", "a2.raw"), ("b.img", "b.hdr"), ("series", "series/IM1")):
             self.write_bytes(data, bytes(128) + b"DICM")
-            self.refused("it is the input", self.path(volume), "--report", self.path(data))
+            self.rejects("it is the input", self.path(volume), "--report", self.path(data))
             self.assertEqual(self.content(data), bytes(128) + b"DICM")
 
-    def test_outputs_that_are_one_file(self):
+    def test_equal_outputs(self):
         os.symlink("b.vtp", self.path("c.vtp"))
         os.mkdir(self.path("l"))
-        self.refused_at_once(
+        self.rejects_at_once(
             "is also the output", "a.vtp a.vtp", "b.vtp c.vtp", "a.vtp --history ./a.vtp",
             "--levels-output r --report r", "--levels-output l.vtm --snapshots l.vtm",
             "l/level-0.vtp --levels-output l", "--levels-output l --report l/level-0.vtp",
@@ -152,18 +152,18 @@ class RefusedTest(OutputsTest):
 
 
 class WrittenTest(OutputsTest):
-    def test_writing_shows_its_progress(self):
+    def test_progress_of_writing(self):
         names = [self.path("a." + suffix) for suffix in ("vtp", "vtk", "stl")]
         said = self.run_command(*self.words[:-1], "--progress", *names).stderr
         for name in names:
             self.assertRegex(said, rf"(?m)^Writing {name}:  *\d+ %$")
 
-    def test_values_are_written_or_reported(self):
+    def test_point_arrays_are_written_or_reported(self):
         names = ("a.vtp", "a.ply", "a.stl", "b.stl", "a.obj", "a.3mf")
         said = self.run_command(self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
                                 *map(self.path, names)).stderr
-        lost = re.findall(r"(.\.\w+): \.\w+ has no place for the values Thickness, ball; \.vtp, "
-                          r"\.vtk and \.ply have", said)
+        lost = re.findall(r"(.\.\w+): \.\w+ does not support the point arrays Thickness, ball; use "
+                          r"\.vtp, \.vtk or \.ply", said)
         self.assertEqual(lost, ["a.stl", "a.obj", "a.3mf"])
         whole = read(self.path("a.vtp")).GetPointData()
         head, body = self.content("a.ply").split(b"end_header\n")
@@ -174,20 +174,20 @@ class WrittenTest(OutputsTest):
             np.testing.assert_array_equal(rows[name], vtk_to_numpy(whole.GetArray(name)))
 
     def test_files_of_an_earlier_run_are_reported(self):
-        for output, old in (("l", "/l: files of an earlier run are there: level-1.vtp;"),
-                            ("m.vtm", "/m: files of an earlier run are there: m_1.vtp;")):
+        for output, old in (("l", "/l: files of an earlier run exist: level-1.vtp;"),
+                            ("m.vtm", "/m: files of an earlier run exist: m_1.vtp;")):
             words = (self.volume, "--iso", ISO, "--levels-output", self.path(output), "--levels")
             self.assertNotIn("earlier run", self.run_command(*words, 2).stderr)
             self.assertIn(old, self.run_command(*words, 1).stderr)
 
     def test_caps_are_solids_of_an_stl(self):
-        """OpenFOAM's tools read a text with a named solid for each patch."""
+        """OpenFOAM reads text with a named solid per patch."""
         voxels = np.minimum(ball(), 900)
         voxels[:] = voxels[len(voxels) // 2]  # a cylinder, which leaves the volume at both ends
         self.write(vtkXMLImageDataWriter(), "tube.vti", make_image(voxels))
         said = self.run_command(self.path("tube.vti"), "--iso", ISO, "--ends", "marked", *map(
             self.path, ("a.vtp", "a.stl", "a.ply"))).stderr
-        self.assertIn("a.ply: .ply has no place for the numbers of caps", said)
+        self.assertIn("a.ply: .ply does not support numbers of caps", said)
         whole = read(self.path("a.vtp"))
         caps = vtk_to_numpy(whole.GetCellData().GetArray("Cap"))
         solids = re.findall(r"(?s)solid (\w+)\n(.*?)endsolid \1\n", self.content("a.stl").decode())
@@ -197,7 +197,7 @@ class WrittenTest(OutputsTest):
             np.testing.assert_allclose(corners.reshape(-1, 3, 3), points_of(whole)[
                 triangles_of(whole)[caps == number]], atol=1e-6)
 
-    def test_a_name_that_is_not_utf_8(self):
+    def test_file_name_that_is_not_utf_8(self):
         for name, text in ((b"\xe9t\xe9 \xed\xa0\x80.vti", "\ufffdt\ufffd \ufffd\ufffd\ufffd.vti"),
                            (os.fsencode("\u00e9 \U0001f9b4.vti"), "\u00e9 \U0001f9b4.vti")):
             path = os.path.join(os.fsencode(self.folder), name)
@@ -208,10 +208,10 @@ class WrittenTest(OutputsTest):
 
 
 class PackageTest(CommandTestCase):
-    """Without the command."""
+    """Tests of the package without the command."""
 
-    def refused_names(self, reason, **names):
-        """Names, separated by blanks, of outputs of each form."""
+    def rejects_names(self, reason, **names):
+        """Check that output names of each kind, separated by blanks, are rejected."""
         for form, name in ((form, name) for form in names for name in names[form].split()):
             with self.subTest(name, form=form), self.assertRaisesRegex(
                     Failure, rf"{name}: cannot be written \({reason}"):
@@ -227,16 +227,16 @@ class PackageTest(CommandTestCase):
         os.mkdir(self.path("locked"), 0o555)
         os.makedirs(self.path("closed/inner"))
         os.chmod(self.path("closed"), 0)
-        if os.geteuid() == 0:  # for whom nothing is forbidden
+        if os.geteuid() == 0:  # root has all permissions
             self.addCleanup(os.seteuid, 0)
             os.seteuid(65534)
-        self.refused_names("Is a directory", file="b.vtp")
-        self.refused_names("there is no folder .*/c", file="c/a.stl link.stl", blocks="c/l.vtm")
-        self.refused_names("there is no folder .*/l", folder="l l/levels loose/m", blocks="l.vtm")
-        self.refused_names("Permission denied", file="a.stl")
-        self.refused_names("the folder .*locked: Permission denied", file="locked/a.stl",
+        self.rejects_names("Is a directory", file="b.vtp")
+        self.rejects_names("there is no folder .*/c", file="c/a.stl link.stl", blocks="c/l.vtm")
+        self.rejects_names("there is no folder .*/l", folder="l l/levels loose/m", blocks="l.vtm")
+        self.rejects_names("Permission denied", file="a.stl")
+        self.rejects_names("the folder .*locked: Permission denied", file="locked/a.stl",
                            folder="locked locked/new/ones")
-        self.refused_names("the folder .*closed.*: Permission denied", file="closed/inner/a.stl",
+        self.rejects_names("the folder .*closed.*: Permission denied", file="closed/inner/a.stl",
                            folder="closed/inner/l")
 
     def test_links_and_pipes(self):
@@ -271,7 +271,7 @@ class PackageTest(CommandTestCase):
                                  lambda _: os.kill(os.getpid(), signal.SIGINT))
         self.assertEqual((self.content("a.vti"), os.listdir(self.folder)), (OLD, ["a.vti"]))
 
-    def test_errors_name_the_file_and_no_hidden_folder(self):
+    def test_errors_name_the_file(self):
         for error, reason in ((lambda path: Failure(f"{path} is full"), "a is full"),
                               (MemoryError, "cannot be written (not enough memory)")):
             with self.assertRaises(Failure) as caught:
@@ -279,7 +279,7 @@ class PackageTest(CommandTestCase):
                     raise error(path)
             self.assertEqual(str(caught.exception), f"{self.path('a')}: {reason}")
 
-    def test_large_volumes_are_written_in_slabs(self):
+    def test_large_volumes_are_written_in_pieces(self):
         with unittest.mock.patch.object(surfaces, "SLAB", 3 * 2 * ball()[0].size):
             writing.write_volume(make_image(ball()), self.path("a.vti"))
         self.assertEqual(self.content("a.vti").count(b"<Piece "), 9)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --probe`: values of other volumes at the vertices."""
+"""Tests of `volumic --probe`."""
 
 import os
 import unittest
@@ -16,8 +16,8 @@ from vtk_files import read
 
 class ProbeTest(CommandTestCase):
     def other(self, name="pet.nii.vti", function=lambda world: world @ (3.0, -2.0, 0.5)):
-        """A linear function of the world in a turned grid of another spacing, about all of the ball
-        but a corner."""
+        """Write a linear function of world coordinates on a rotated grid that covers all of the
+        ball but a corner."""
         index = np.stack(np.indices((20, 30, 30))[::-1], axis=-1)
         places = np.array([12., 3., 8.]) + (index * (0.8, 0.7, 0.9)) @ np.asarray(TURNED).T
         return self.write(vtkXMLImageDataWriter(), name,
@@ -39,33 +39,33 @@ class ProbeTest(CommandTestCase):
         second = vtk_to_numpy(surface.GetPointData().GetArray("pet-2"))
         np.testing.assert_allclose(second[inside], points[inside, 0], atol=2e-4)
 
-    def test_the_mean_over_a_depth(self):
-        """Of a linear function it is the value half as deep."""
+    def test_mean_over_depth(self):
+        """The mean of a linear function is its value at half the depth."""
         surface, points = self.values("--probe", self.other(), "--probe-depth", "1.5")
         normals = vtk_to_numpy(surface.GetPointData().GetNormals())
         found = vtk_to_numpy(surface.GetPointData().GetArray("pet"))
         expected = (points - 0.75 * normals) @ (3.0, -2.0, 0.5)
         np.testing.assert_allclose(found[~np.isnan(found)], expected[~np.isnan(found)], atol=2e-3)
 
-    def test_a_volume_elsewhere_and_errors(self):
+    def test_points_outside_and_errors(self):
         far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
         said = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--probe",
                                 far).stderr
-        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices lie outside this volume")
+        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices are outside this volume")
         surface = read(self.path("a.vtp"))
         self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
-        self.refused("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
+        self.rejects("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
                      self.path("none.vti"))
         os.symlink(far, self.path("link.vtp"))
-        self.refused("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
+        self.rejects("is the input", self.ball_file(), self.path("link.vtp"), "--probe", far)
 
     def twice_x(self):
-        """Twice the x of the world, whole numbers, on the grid of the ball."""
+        """Write 2 x as integers on the grid of the ball."""
         return np.broadcast_to(np.rint(2 * (ORIGIN[0] + SPACING[0] * np.arange(SIZE[0]))),
                                SIZE[::-1]).astype("<i2")
 
-    def test_a_probe_has_a_space_and_a_unit_of_its_own(self):
-        """Files in LPS, and in micrometres, that lie where the volume lies: the same values."""
+    def test_other_space_and_unit(self):
+        """Files in LPS and in micrometres yield the same values."""
         form = np.column_stack((np.diag(SPACING), ORIGIN))
         ball_file, micro = (bytearray(medical_files.nifti(voxels, factor * SPACING, factor * form))
                             for voxels, factor in ((ball(), 1), (self.twice_x(), 1000)))
@@ -93,7 +93,7 @@ class ProbeTest(CommandTestCase):
         self.assertEqual(set(np.unique(vtk_to_numpy(surface.GetPointData().GetArray("halves")))),
                          {3, 7})
 
-    def test_of_labels(self):
+    def test_labels(self):
         labels = self.write(vtkXMLImageDataWriter(), "labels.vti",
                             make_image((ball() > 500).astype("u1")))
         self.run_command(labels, self.path("o/"), "--labels", "all", "--probe", self.other())
@@ -103,7 +103,7 @@ class ProbeTest(CommandTestCase):
                          "--probe-depth", "1")
         halves = self.write(vtkXMLImageDataWriter(), "two.vti",
                             make_image(np.where(self.twice_x() < 0, 3, 7).astype("u1")))
-        self.refused("--probe-depth: the mesh of several labels has no normals", halves,
+        self.rejects("--probe-depth requires normals, which the mesh of several labels lacks", halves,
                      self.path("a.vtp"), "--labels", "all", "--probe", self.other(),
                      "--probe-depth", "1")
 

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whole runs of the program that go through most of it: also what Testing/sanitize.sh watches, so
-that they do without Volumic's Python package."""
+"""Complete runs of the command, also used by Testing/sanitize.sh, without Volumic's Python
+package."""
 
 import os
 import unittest
@@ -14,7 +14,7 @@ from command_test_case import ISO, CommandTestCase, ball, make_image
 
 class RunsTest(CommandTestCase):
     def test_labels(self):
-        """Two halves of a ball, each by itself and in one surface."""
+        """Two halves of a ball, separately and merged."""
         labels = np.where(ball() > ISO, 3, 0)
         labels[:, :, 8:] *= 2
         volume = self.write(vtkXMLImageDataWriter(), "map.vti", make_image(labels.astype("u1")))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of tetrahedra, by TetGen and gmsh where they are installed: .vtu, .msh, .inp, which
-CalculiX solves where it is installed, and those of meshio."""
+"""Tests of tetrahedral meshes by TetGen and gmsh: .vtu, .msh, .inp (solved by CalculiX), formats of
+meshio."""
 
 import json
 import os
@@ -33,8 +33,8 @@ MESHERS = [name for name in ("tetgen", "gmsh") if shutil.which(name)]
 
 
 def voxels():
-    """[z, y, x] A box of 1 that touches one of 2, in which are one of nothing, and one of 1, about
-    which gmsh finds the same surfaces as about 2 unless they are told apart; 4 touches both."""
+    """Return [z, y, x]: a box of label 1 adjacent to label 2, which contains a cavity and label 1;
+    label 4 touches both."""
     found = np.zeros((20, 32, 40), "u1")
     found[2:18, 2:18, 2:14] = 1
     found[2:18, 2:18, 14:38] = 2
@@ -46,7 +46,7 @@ def voxels():
 
 class SolidsTest(InterfacesTest):
     def solid(self, *files, options=()):
-        """The report of a run that makes them, and the grid of the first one."""
+        """Return the report of a run and the first grid."""
         report = self.report(self.map_of(voxels()), *(self.path(file) for file in files),
                              "--labels", "all", "--label-names", self.names_file(), *options)
         return report, read(self.path(files[0]), vtkXMLUnstructuredGridReader())
@@ -62,7 +62,7 @@ class MesherTest(SolidsTest):
             self.assertGreater(sizes.min(), 0)
             for row in report["labels"]:
                 self.assertAlmostEqual(sizes[labels == row["label"]].sum() / row["volume"], 1, 5)
-            # The triangles are those of the surface, to the last bit.
+            # Triangles are bit-identical to those of the surface.
             surface = read(self.path("a.vtp"))
             sides = vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels"))
             sides = sides[surface.GetNumberOfLines():]
@@ -97,14 +97,13 @@ class MesherTest(SolidsTest):
             self.assertEqual(set(labels.tolist()), {1})
 
     def outlets(self):
-        """A file of two vessels that leave the volume at z-max, with values that grow with z."""
+        """Write two vessels that leave the volume at z-max, with values that increase with z."""
         z, y, x = np.indices((18, 18, 40))
         far = np.minimum(np.hypot(x - 9.3, y - 8.5), np.hypot(x - 29.6, y - 8.5))
         return self.map_of(np.minimum(5.2 - far, z - 3.5).astype("f4"), "outlets.vti")
 
     def test_each_cap_is_a_set(self):
-        """In .inp a surface and a set of nodes, beside those of the side that both are in; in .msh
-        a physical surface, in .stl a solid."""
+        """A surface and node set in .inp, a physical surface in .msh, a solid in .stl."""
         for mesher in MESHERS:
             files = map(self.path, ("a.vtp", "a.inp", "a.msh", "a.stl"))
             self.run_command(self.outlets(), *files, "--iso", "0", "--ends", "marked", "--mesher",
@@ -132,7 +131,6 @@ class MesherTest(SolidsTest):
                              ["wall", "cap_1", "cap_2"])
 
     def test_caps_of_labels(self):
-        """Each connected part of a label in a side of the volume."""
         found = np.zeros((10, 12, 26), "u1")
         found[:, 3:9, 3:9] = found[:, 3:9, 16:22] = 1
         found[:, 3:9, 9:12] = 2
@@ -157,7 +155,7 @@ class MesherTest(SolidsTest):
                          ["object_to_outside", "cap_1", "cap_2", "object"])
         self.assertIn(b"# facets 3: cap_2\n", self.content("a.smesh"))
 
-    def test_probes_give_nodes_and_tetrahedra_values(self):
+    def test_probes_add_values(self):
         z = np.indices((18, 18, 40))[0].astype("f4")
         self.run_command(self.outlets(), self.path("a.vtu"), "--iso", "0", "--ends", "marked",
                          "--probe", self.map_of(z, "density.vti"))
@@ -169,7 +167,7 @@ class MesherTest(SolidsTest):
                                    heights[tetrahedra_of(grid)[0]].mean(axis=1), atol=1e-5)
 
     @unittest.skipUnless(meshio, "meshio is not installed")
-    def test_meshio_reads_what_is_written(self):
+    def test_meshio_reads_files(self):
         files = ["a.vtu", "a.xdmf", "a.med", "a.bdf", "a.mesh"] + ["a.exo"] * bool(netCDF4)
         report, grid = self.solid(*files)
         points, (corners, labels) = points_of(grid), tetrahedra_of(grid)
@@ -189,21 +187,20 @@ class MesherTest(SolidsTest):
         self.assertIn(["left kidney_to_outside"], names.values())
         self.assertEqual(len(corners), report["solid"]["tetrahedra"])
 
-    def test_a_volume_without_a_node_of_its_own(self):
-        """Its tetrahedra have the corners that its triangles have."""
+    def test_region_without_interior_node(self):
         volume = self.map_of(np.pad(np.ones((2, 2, 2), "u1"), 2), "small.vti")
         for mesher in MESHERS:
             report = self.report(volume, self.path("small.vtu"), "--labels", "all",
                                  "--edge-length", "2", "--mesher", mesher)
             self.assertGreater(report["solid"]["tetrahedra"], 0)
 
-    def test_tetrahedra_are_about_as_small_as_asked(self):
+    def test_maximum_volume(self):
         for mesher in MESHERS:
             counts = []
             for limit in (20, 0.1):
                 _, grid = self.solid("a.vtu", options=("--mesher", mesher, "--maximum-volume",
                                                        str(limit)))
-                # Triangles stay, and gmsh takes the length of edges that such a tetrahedron has.
+                # Triangles are kept; gmsh uses the edge length of such a tetrahedron.
                 sizes = volumes(points_of(grid), tetrahedra_of(grid)[0])
                 self.assertLess(np.median(sizes), 2 * limit)
                 counts.append(len(sizes))
@@ -215,8 +212,8 @@ class MesherTest(SolidsTest):
         self.assertEqual(sorted(os.listdir(self.path("all"))),
                          ["label-1.vtu", "label-2.vtu", "label-4.vtu"])
 
-    def test_sides_of_a_box(self):
-        """Two labels fill it, one of which has the name of a side."""
+    def test_box_faces(self):
+        """Two labels fill the box; one has the name of a box face."""
         found = np.ones((8, 9, 10), "u1")
         found[:, :, 5:] = 2
         lengths = np.array(found.shape[::-1]) * SPACING
@@ -241,8 +238,7 @@ class MesherTest(SolidsTest):
                 self.assertAlmostEqual(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2,
                                        np.delete(lengths, axis).prod(), 6)
 
-    def test_nodes_of_a_period_match(self):
-        """Those of opposite sides, in the order of their numbers."""
+    def test_periodic_nodes_match(self):
         for mesher in MESHERS:
             self.run_command(self.map_of(period()), self.path("a.inp"), "--labels", "all",
                              "--box-faces", "periodic", "--mesher", mesher)
@@ -269,7 +265,7 @@ class MesherTest(SolidsTest):
                           for name, found in triangles.items()}, faces)
 
     def run_script(self, script, *options, status=1):
-        """What is said of a run whose TetGen is this script, and the files that it leaves."""
+        """Return messages and files of a run with this script as TetGen."""
         for folder in ("bin", "out"):
             os.makedirs(self.path(folder), exist_ok=True)
         self.write_bytes("bin/tetgen", f"#!/bin/sh\n{script}\n".encode())
@@ -279,50 +275,49 @@ class MesherTest(SolidsTest):
             "all", *options, status=status, env={**os.environ, "PATH": self.path("bin") + ":/bin"})
         return process.stderr, os.listdir(self.path("out"))
 
-    def test_what_fails_is_told(self):
-        """A program that is no mesher, and one that is killed: other files are written still,
-        and nothing else is left behind."""
-        for script, said in (("echo sorry; exit 3", r"a.vtu: tetgen fails \(exit code 3\): sorry"),
-                             ("kill -9 $$", r"a.vtu: tetgen fails \(signal 9\)"),
-                             ("exit 0", "a.vtu: the mesher has made no tetrahedra")):
-            told, files = self.run_script(script)
-            self.assertRegex(told, said)
+    def test_failing_mesher(self):
+        """Other files are written, and no temporary files remain."""
+        for script, said in (("echo sorry; exit 3", r"a.vtu: tetgen failed \(exit code 3\): sorry"),
+                             ("kill -9 $$", r"a.vtu: tetgen failed \(signal 9\)"),
+                             ("exit 0", "a.vtu: the mesher created no tetrahedra")):
+            messages, files = self.run_script(script)
+            self.assertRegex(messages, said)
             self.assertEqual(files, ["a.vtp"])
 
-    def test_it_can_be_stopped(self):
-        """By a signal, by two at once, as timeout(1) sends them, and by the time limit."""
+    def test_mesher_is_stopped(self):
+        """By one signal, by two signals (as timeout sends them), and by the time limit."""
         for script, said, *options in (
-                ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen made"),
+                ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen was running"),
                 ("kill -TERM $PPID; kill -TERM $PPID; exec sleep 100",
-                 "a.vtu: interrupted while tetgen made"),
-                ("exec sleep 100", "a.vtu: the time limit came while tetgen made", "--time-limit",
-                 2)):
-            told, files = self.run_script(script, *options)
-            self.assertRegex(told, said)
+                 "a.vtu: interrupted while tetgen was running"),
+                ("exec sleep 100", "a.vtu: time limit reached while tetgen was running",
+                 "--time-limit", 2)):
+            messages, files = self.run_script(script, *options)
+            self.assertRegex(messages, said)
             self.assertEqual(files, ["a.vtp"])
 
-    def test_tetrahedra_without_number_are_refused(self):
-        told, files = self.run_script("exit 9", "--maximum-volume", "1e-300")
-        self.assertRegex(told, "a.vtu: --maximum-volume 1e-300 means more than 2e.08 tetrahedra; "
-                         "choose at least [1-9]")
+    def test_too_many_tetrahedra_fail(self):
+        messages, files = self.run_script("exit 9", "--maximum-volume", "1e-300")
+        self.assertRegex(messages, "a.vtu: --maximum-volume 1e-300 requires more than 2e.08 tetrahedra; "
+                         "set it to at least [1-9]")
         self.assertEqual(files, ["a.vtp"])
 
-    def test_small_angles_are_told(self):
-        for height, told in ((0.01, "warning: the least dihedral angle .* degrees"), (1, "^$")):
+    def test_small_angles_warn(self):
+        for height, messages in ((0.01, "warning: the minimum dihedral angle .* degrees"), (1, "^$")):
             mesh = "\n".join(["Vertices", "4", "0 0 0 0", "1 0 0 0", "0 1 0 0", f"0 0 {height} 0",
                               "Tetrahedra", "3",
                               *(f"1 2 3 4 {label}" for label in (1, 2, 4)), "End"])
-            said, _ = self.run_script(f"cat > solid.1.mesh <<.\n{mesh}\n.", status=0)
-            self.assertRegex("".join(re.findall("warning: the least.*", said)), told)
+            said, _ = self.run_script(f"cat > surface.1.mesh <<.\n{mesh}\n.", status=0)
+            self.assertRegex("".join(re.findall("warning: the minimum.*", said)), messages)
 
 
 class OptionsTest(SolidsTest):
-    def test_what_is_missing_is_told_before_the_work(self):
+    def test_missing_mesher_fails_before_reading(self):
         environment = {**os.environ, "PATH": self.folder}
-        for options, said in (((), r"none of which is installed \(Debian: apt install tetgen\)"),
+        for options, said in (((), r"require TetGen or gmsh; .* \(Debian: apt install tetgen\)"),
                               (("--mesher", "gmsh"), r"gmsh is not installed \(Debian: apt")):
             for name in ("a.vtu", "a.inp"):
-                self.refused(said, self.path("missing.vti"), self.path(name), *options,
+                self.rejects(said, self.path("missing.vti"), self.path(name), *options,
                              env=environment)
 
 
@@ -351,8 +346,7 @@ class SolverTest(SolidsTest):
         self.assertLess(max(len(word) for line in self.content("a.inp").decode().splitlines()
                             if line[0] != "*" for word in line.split(", ")), 21)
 
-    def test_names_of_sets_are_words_and_differ(self):
-        """Those of a file are Eall and Nall, whatever labels are called."""
+    def test_set_names_are_valid_and_unique(self):
         for given, sets in ((("Liver, left", "liver left", "4th"),
                              ["Liver__left", "liver_left", "L_4th"]),
                             (("Eall", "a b", "a.b"), ["Eall_2", "a_b", "a_b_2"])):

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""In which space and unit surfaces are: what files tell, --unit, --scale and --space, and what is
-written of it."""
+"""Tests of coordinate systems and units: those of files, --unit, --scale, --space, and those of
+outputs."""
 
 import json
 import os
@@ -31,7 +31,7 @@ class SpaceTest(CommandTestCase):
         return self.path(name)
 
     def run_to(self, suffix, volume, *options, status=0):
-        """The surface, what was said, and the report."""
+        """Return messages and report of a run to this format."""
         process = self.run_command(volume, self.path("a." + suffix), "--iso", ISO, "--levels", 1,
                                 "--report", self.path("r.json"), *options, status=status)
         return process.stderr, json.loads(self.content("r.json"))
@@ -45,7 +45,7 @@ class SpaceTest(CommandTestCase):
         arrays = [fields.GetAbstractArray(name) for name in ("SPACE", "LengthUnit")]
         return [array.GetValue(0) if array else None for array in arrays]
 
-    def test_what_the_file_tells(self):
+    def test_space_and_unit_of_files(self):
         os.mkdir(self.path("dicom"))
         for i in range(SIZE[2]):
             self.write_bytes(f"dicom/{i}.dcm", dicom_slice(i))
@@ -64,9 +64,9 @@ class SpaceTest(CommandTestCase):
                 self.assertEqual((facts["space"], facts["unit"]), (space, unit))
                 self.assertEqual((facts["file_space"], facts["file_unit"]), (space, unit))
                 self.assertEqual(self.fields(), [space or None, unit or None])
-                told = ", ".join(f"{what} {is_}" for what, is_ in
+                text = ", ".join(f"{what} {is_}" for what, is_ in
                                  (("space", space), ("unit", unit)) if is_)
-                self.assertIn(f"{'; ' if told else ''}{told}\n", said)
+                self.assertIn(f"{'; ' if text else ''}{text}\n", said)
 
     def test_space(self):
         volume = self.nifti(2)
@@ -85,7 +85,7 @@ class SpaceTest(CommandTestCase):
         np.testing.assert_allclose(self.middle(), MIDDLE, atol=0.1)
         self.run_to("vtp", volume, "--space", "as-file")
         np.testing.assert_allclose(self.middle(), MIDDLE, atol=0.1)
-        self.refused("ball.vti: --space LPS: the file does not state which sides", self.ball_file(),
+        self.rejects("ball.vti: --space LPS: the file does not state its coordinate", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--space", "LPS")
 
     def test_unit_and_scale(self):
@@ -101,7 +101,7 @@ class SpaceTest(CommandTestCase):
         self.assertEqual((scaled["area"], scaled["input"]["unit"]), (report["area"], "mm"))
         said, scaled = self.run_to("vtp", volume, "--scale", "3")
         self.assertEqual((scaled["input"]["unit"], self.fields()), ("", ["RAS", None]))
-        self.refused("--unit mm: the file does not state its unit.* by --scale", self.ball_file(),
+        self.rejects("--unit mm: the file does not state its unit; use --scale", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--unit", "mm")
 
     def test_labels(self):
@@ -118,8 +118,8 @@ class SpaceTest(CommandTestCase):
         self.assertAlmostEqual(
             listed["labels"][0]["volume"], voxels.sum() * np.prod(SPACING) * 1e-9, delta=1e-12)
 
-    def test_comments(self):
-        """As 3D Slicer looks for them: a mesh without is one of LPS there."""
+    def test_file_headers(self):
+        """3D Slicer reads them; meshes without are in LPS."""
         for suffix, end in (("stl", 80), ("ply", 300), ("obj", 80), ("vtk", 300)):
             self.run_to(suffix, self.nifti(2))
             self.assertIn(b"SPACE=RAS, unit mm", self.content("a." + suffix)[:end], suffix)

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""How many threads of the installed program work, on a machine with 16 processors.
+"""Tests of the number of threads of the command, on a machine that appears to have 16 processors.
 
-VOLUMIC_FAKE_PROCESSORS names the library that makes the program believe in them.
+VOLUMIC_FAKE_PROCESSORS is the library that simulates them.
 """
 
 import glob
@@ -20,23 +20,21 @@ FAKE = os.environ["VOLUMIC_FAKE_PROCESSORS"]
 
 
 def runnable_threads(process):
-    """The number of its threads that run or wait for a processor."""
+    """Return the number of threads of a process that run or wait for a processor."""
     runnable = 0
     for file in glob.glob(f"/proc/{process.pid}/task/*/stat"):
         try:
             with open(file, encoding="utf-8") as stat:
                 runnable += stat.read().rpartition(")")[2].split()[0] == "R"
         except OSError:
-            continue  # It has ended.
+            continue  # ended
     return runnable
 
 
 class ThreadsTest(CommandTestCase):
     def threads_at_work(self, *arguments, **environment):
-        """The most frequent number of runnable threads in the parallel part of a run.
-
-        TBB may wake a thread while another one is on its way to sleep: it limits those that work.
-        """
+        """Return the most frequent number of runnable threads in the parallel part of a run. TBB
+        limits the threads that work, but may wake one while another one goes to sleep."""
         command = [PROGRAM, *map(str, arguments)]
         samples = []
         with subprocess.Popen(command, stderr=subprocess.PIPE, text=True,
@@ -48,8 +46,7 @@ class ThreadsTest(CommandTestCase):
         parallel = [number for number in samples if number > 1]
         return statistics.mode(parallel) if len(parallel) > len(samples) / 10 else 1
 
-    def test_a_surface_has_as_many_as_are_asked_for(self):
-        """The pyramid and the surface, and Otsu's threshold before them."""
+    def test_threads_of_a_surface(self):
         z, y, x = np.mgrid[0:60, 0:60, 0:60] - 29.5
         waves = np.sin(x / 4) + np.sin(y / 4) + np.sin(z / 4)
         volume = self.write(vtkXMLImageDataWriter(), "waves.vti",
@@ -62,7 +59,7 @@ class ThreadsTest(CommandTestCase):
                 self.threads_at_work(volume, self.path("a.stl"), VTK_SMP_MAX_THREADS="2",
                                      VTK_SMP_BACKEND_IN_USE=backend), 2, backend)
 
-    def test_labels_have_as_many_as_are_asked_for_and_one_that_tells(self):
+    def test_threads_of_labels_and_one_for_progress(self):
         volume = self.many_labels(3)
         for asked in 1, 3:
             at_work = self.threads_at_work(volume, self.path(f"labels{asked}"), "--labels", "all",

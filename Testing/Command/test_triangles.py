@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --triangles`: a tolerance or an edge length for a number of triangles."""
+"""Tests of `volumic --triangles`."""
 
 import os
 import re
@@ -19,9 +19,7 @@ class TrianglesTest(CommandTestCase):
                                    "--triangles", count)
         return read(self.path("a.vtp")).GetNumberOfPolys(), process.stderr
 
-    def test_about_so_many(self):
-        """By a tolerance where fewer are wanted, by the edge length where more are, or where no
-        tolerance leaves so few."""
+    def test_number_of_triangles(self):
         whole, said = self.triangles(4000)
         self.assertTrue(4000 / 1.1 <= whole <= 1.1 * 4000, said)
         self.assertRegex(said, rf"edge length [0-9.]+: {whole} triangles")
@@ -32,7 +30,7 @@ class TrianglesTest(CommandTestCase):
             self.assertIn(f": {found} triangles", said)
 
     def test_a_sponge(self):
-        """No tolerance makes few triangles of it: shared/repro's, whose least was 5986."""
+        """No tolerance yields few triangles."""
         z, y, x = np.mgrid[0:40, 0:40, 0:40] / 4.5
         waves = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
         sponge = self.write(vtkXMLImageDataWriter(), "sponge.vti",
@@ -40,8 +38,8 @@ class TrianglesTest(CommandTestCase):
         found, said = self.triangles(2500, volume=sponge, iso=0)
         self.assertTrue(2500 / 1.1 <= found <= 2500 * 1.1, said)
 
-    def test_of_labels(self):
-        """Those of the files: interfaces are once in the mesh, and twice in a folder."""
+    def test_labels(self):
+        """Interfaces are stored once in a mesh and twice in a folder."""
         halves = np.where(ball() > ISO, 3, 0)
         halves[:, :, 8:] *= 2
         volume = self.write(vtkXMLImageDataWriter(), "map.vti", make_image(halves.astype("u1")))
@@ -52,10 +50,10 @@ class TrianglesTest(CommandTestCase):
             count = sum(read(self.path(name)).GetNumberOfPolys() for name in names)
             self.assertTrue(2000 / 1.1 <= count <= 2000 * 1.1, count)
 
-    def test_out_of_reach(self):
+    def test_unreachable_number_fails(self):
         process = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", ISO,
                                    "--triangles", 20, status=1)
-        self.assertRegex(process.stderr, "no edge length gives about so many; the nearest")
+        self.assertRegex(process.stderr, "no tolerance or edge length yields this number; the nearest")
         self.assertFalse(os.path.exists(self.path("a.vtp")))
 
 

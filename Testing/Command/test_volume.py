@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`volumic --write-volume` writes the volume as it was read, cropped or resampled; `--list-files`
-lists its files."""
+"""Tests of `volumic --write-volume`, of cropping and resampling, and of `--list-files`."""
 
 import os
 import unittest
@@ -25,12 +24,12 @@ class WritingTestCase(CommandTestCase):
     def nrrd(self):
         return self.write_bytes("a.nrrd", nrrd_header(direction=TURNED) + b"\n" + ball().tobytes())
 
-    def written(self, volume, *options, told=""):
-        """The volume that is written, and that nothing else is."""
+    def written(self, volume, *options, messages=""):
+        """Return the written volume; check that no other file is written."""
         before = set(os.listdir(self.folder))
         process = self.run_command(volume, "--write-volume", self.path("written.vti"), *options)
         self.assertNotIn("iso-value", process.stderr)
-        self.assertIn(told, process.stderr)
+        self.assertIn(messages, process.stderr)
         self.assertEqual(set(os.listdir(self.folder)) - before, {"written.vti"})
         image = read(self.path("written.vti"))
         os.rename(self.path("written.vti"), self.path("last.vti"))
@@ -38,7 +37,7 @@ class WritingTestCase(CommandTestCase):
 
 
 class WrittenVolumeTest(WritingTestCase):
-    def test_voxels_and_positions_are_those_of_the_file(self):
+    def test_voxels_and_positions(self):
         image = self.written(self.nrrd())
         for _ in range(2):
             np.testing.assert_array_equal(voxels_of(image), ball())
@@ -49,9 +48,9 @@ class WrittenVolumeTest(WritingTestCase):
             np.testing.assert_allclose(
                 [[matrix.GetElement(r, c) for c in range(3)] for r in range(3)], TURNED)
             self.assertEqual(image.GetFieldData().GetAbstractArray("Axes").GetValue(0), "LPS")
-            image = self.written(self.path("last.vti"))  # once more, of what was written
+            image = self.written(self.path("last.vti"))  # again, from the written file
 
-    def test_the_chosen_array_and_spacing(self):
+    def test_array_and_spacing(self):
         image = make_image(ball())
         other = numpy_to_vtk(ball("f4").ravel(), deep=True)
         other.SetName("other")
@@ -61,14 +60,14 @@ class WrittenVolumeTest(WritingTestCase):
         self.assertEqual(written.GetPointData().GetScalars().GetName(), "other")
         self.assertEqual(written.GetSpacing(), (1, 2, 3))
 
-    def test_what_cannot_be_written(self):
+    def test_invalid_outputs(self):
         volume = self.ball_file()
-        self.refused("a volume is written as .vti", volume, "--write-volume", "a.mha", status=2)
-        self.refused("there is no folder", volume, "--write-volume", self.path("none/a.vti"))
+        self.rejects("volumes are written as .vti", volume, "--write-volume", "a.mha", status=2)
+        self.rejects("there is no folder", volume, "--write-volume", self.path("none/a.vti"))
         before = self.content("ball.vti")
-        self.refused("ball.vti: cannot be written: it is the input", volume, "--write-volume", volume)
+        self.rejects("ball.vti: cannot be written: it is the input", volume, "--write-volume", volume)
         self.write_bytes("old.vti", b"older")
-        self.refused("old.vti: cannot be written|old.vti cannot be written", volume,
+        self.rejects("old.vti: cannot be written|old.vti cannot be written", volume,
                      "--write-volume", self.path("old.vti"), preexec_fn=largest_file(1000))
         self.assertEqual((self.content("ball.vti"), self.content("old.vti")), (before, b"older"))
 
@@ -82,12 +81,12 @@ class WrittenVolumeTest(WritingTestCase):
 
 class ResampledVolumeTest(WritingTestCase):
     def test_values_are_linear_between_voxels(self):
-        """A linear function of the world stays what it is, but in the outer halves of voxels."""
+        """A linear function is preserved, except in the outer halves of voxels."""
         index, slope = np.indices((7, 12, 9))[::-1], np.array([3.0, -2.0, 0.5])
         world = ORIGIN + np.moveaxis(index, 0, -1) @ (TURNED * SPACING).T
         image = make_image((world @ slope).astype("f4"), direction=TURNED)
         written = self.written(self.write(vtkXMLImageDataWriter(), "a.vti", image), "--resample",
-                               "0.31,0.7,0.4", told="resampled from")
+                               "0.31,0.7,0.4", messages="resampled from")
         self.assertEqual(written.GetSpacing(), (0.31, 0.7, 0.4))
         np.testing.assert_allclose(written.GetCenter(), image.GetCenter(), atol=1e-6)
         places = np.array([written.GetPoint(i) for i in range(0, written.GetNumberOfPoints(), 7)])
@@ -97,25 +96,25 @@ class ResampledVolumeTest(WritingTestCase):
         np.testing.assert_allclose(voxels_of(written).ravel()[::7][inside],
                                    (places @ slope)[inside], atol=2e-4)
 
-    def test_labels_are_those_of_the_nearest_voxel(self):
+    def test_labels_use_nearest_neighbour(self):
         labels = np.random.default_rng(3).integers(0, 9, (6, 12, 14)).astype("u2")
         file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(labels, (0.5, 0.5, 1.5)))
-        written = self.written(file, "--isotropic", "--labels", "all", told="resampled from")
+        written = self.written(file, "--isotropic", "--labels", "all", messages="resampled from")
         np.testing.assert_array_equal(voxels_of(written), labels.repeat(3, axis=0))
 
-    def test_a_few_slices_have_a_surface(self):
+    def test_thin_volumes_are_resampled(self):
         z, y, x = np.indices((7, 30, 30))
         cone = (100 - 10 * np.hypot(np.hypot(x - 15, y - 15), 4 * (z - 3))).astype("i2")
         file = self.write(vtkXMLImageDataWriter(), "a.vti", make_image(cone, (1, 1, 4)))
         report = self.report(file, self.path("a.vtp"), "--iso", "0")
         self.assertRegex(report["input"]["resampling"],
-                         "resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface needs 8 voxels")
+                         "resampled from 30 x 30 x 7 voxels of 1 x 1 x 4: a surface requires 8 voxels")
         self.assertEqual(report["genus"], 0)
         self.assertAlmostEqual(report["volume"], 4 / 3 * np.pi * 10 ** 3, delta=300)
 
 
 class RegionTest(WritingTestCase):
-    def test_these_voxels_at_their_positions(self):
+    def test_region_and_region_box(self):
         corners = ORIGIN + SPACING * [[5, 3, 4], [20, 14, 11]] @ TURNED.T
         box = np.sort(corners, axis=0) + [[.1], [-.1]]
         for options in (("--region", "5,20,3,14,4,11"),
@@ -126,23 +125,23 @@ class RegionTest(WritingTestCase):
         image = self.written(self.nrrd(), "--region", "-5,8,0,10000,3,5")
         self.assertEqual(image.GetDimensions(), (9, SIZE[1], 3))
 
-    def test_a_surface_closes_at_its_border(self):
+    def test_surface_closes_at_the_border(self):
         whole = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5")
         half = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--region",
                            "0,100,0,100,0,8")
         self.assertEqual((half["genus"], half["components"]), (0, 1))
-        # The ball's centre is at 7.8 slices of 1; the surface ends between the last slice and the next.
+        # The ball's centre is at slice 7.8; the surface ends beyond the last slice.
         bounds = read(self.path("a.vtp")).GetBounds()
         self.assertTrue(8 + ORIGIN[2] < bounds[5] <= 9 + ORIGIN[2])
         self.assertTrue(0.5 < half["volume"] / whole["volume"] < 0.75)
 
-    def test_what_is_refused(self):
+    def test_invalid_regions(self):
         for reason, *options in (
-                ("the region lies beside the volume, which has voxels k 0 to 17", "--region",
+                ("the region is outside the volume, whose index k ranges from 0 to 17", "--region",
                  "0,5,0,5,18,20"),
-                ("resampled it would have .* voxels", "--resample", "1e-6,1e-6,1e-6")):
+                ("resampling yields .* voxels", "--resample", "1e-6,1e-6,1e-6")):
             with self.subTest(reason):
-                self.refused(reason, self.ball_file(), self.path("a.vtp"), *options)
+                self.rejects(reason, self.ball_file(), self.path("a.vtp"), *options)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumic.read() of images that VTK writes: voxels and positions are those of the file, and damaged
-files are refused in one line."""
+"""Tests of volumic.read() for images written by VTK: voxels, positions, damaged files."""
 
 import itertools
 import os
@@ -20,8 +19,8 @@ from volumic import reading
 
 
 class VtkTest(ReadingTestCase):
-    def test_each_encoding_whole_and_damaged(self):
-        """Cut off, and with a piece of the data missing or too much."""
+    def test_encodings(self):
+        """Complete, truncated, and with missing or extra data."""
         image = make_image(noisy_ball(), direction=TURNED)
         for mode, compressor, encodes in itertools.product((0, 1, 2), range(4), (0, 1)):
             writer = vtkXMLImageDataWriter()
@@ -34,9 +33,9 @@ class VtkTest(ReadingTestCase):
                 self.assertEqual(volume.name, "density")
                 self.cut("a.vti", content, rests=(0.2, 0.7, 0.9, -60, -12))
                 at = len(content) * 2 // 3
-                piece = 200 if mode == 0 else 12  # of a text parts of numbers may be missing
+                piece = 200 if mode == 0 else 12  # truncated text may end within a number
                 for rest in (at + piece, at - piece):
-                    self.refused("a.vti", "damaged|cut off", content[:at] + content[rest:])
+                    self.rejects("a.vti", "damaged|truncated", content[:at] + content[rest:])
 
     def test_arrays_extents_and_cells(self):
         image = make_image(ball())
@@ -51,11 +50,11 @@ class VtkTest(ReadingTestCase):
         np.testing.assert_allclose(tuple(volume)[2], image.GetPoint(0))  # of the first voxel
         volume = self.read("a.vti", array="vectors")
         self.assertEqual((volume.array.shape, volume.components), ((2, *SIZE[::-1]), "vector"))
-        self.refused("a.vti", "no point array none; point arrays: density, vectors, other",
+        self.rejects("a.vti", "no point array none; .* with --array: density, vectors, other",
                      array="none")
         image.GetPointData().SetActiveScalars(None)
         self.write(vtkXMLImageDataWriter(), "a.vti", image)
-        self.refused("a.vti", "no active scalars; point arrays: density, vectors, other")
+        self.rejects("a.vti", "no active scalars; .* --array: density, vectors, other")
         cells = make_image(ball())
         cells.SetDimensions(*SIZE + 1)
         cells.GetCellData().SetScalars(cells.GetPointData().GetScalars())
@@ -98,11 +97,11 @@ class VtkTest(ReadingTestCase):
         self.assertEqual(reading.list_files(self.path("a.pvti"))[1:], pieces)
         content = self.content(pieces[1])
         self.write_bytes(pieces[1], content[:-99])
-        self.refused("a.pvti", "cut off")
+        self.rejects("a.pvti", "truncated")
         self.write_bytes(pieces[1], self.content(pieces[2]))
-        self.refused("a.pvti", "do not cover the whole image")
+        self.rejects("a.pvti", "do not cover the image")
         os.remove(pieces[1])
-        self.refused("a.pvti", "No such file")
+        self.rejects("a.pvti", "No such file")
 
     def test_legacy(self):
         for binary in (True, False):
@@ -110,8 +109,8 @@ class VtkTest(ReadingTestCase):
             writer.SetFileType(2 if binary else 1)
             content = self.bytes_of(writer, "a.vtk", make_image(noisy_ball()))
             self.check(self.read("a.vtk"), noisy_ball())
-            self.cut("a.vtk", content, "VTK cannot read it", rests=(0.5, -10))
-        self.refused("b.vtk", "holds PolyData, and no image", b"# vtk DataFile Version 3.0\na\nASCII\n"
+            self.cut("a.vtk", content, "VTK cannot read the file", rests=(0.5, -10))
+        self.rejects("b.vtk", "has PolyData, not an image", b"# vtk DataFile Version 3.0\na\nASCII\n"
                      b"DATASET POLYDATA\nPOINTS 1 float\n0 0 0\n")
 
     def test_rectilinear_grids(self):
@@ -126,7 +125,7 @@ class VtkTest(ReadingTestCase):
             self.write(vtkXMLRectilinearGridWriter(), "a.vtr", grid)
             if step == 1:
                 self.check(self.read("a.vtr"))
-        self.refused("a.vtr", "uneven distances, and no image; resample it")
+        self.rejects("a.vtr", "of variable spacing, not an image; convert it")
 
 
 if __name__ == "__main__":

@@ -57,7 +57,7 @@ public:
     : Executing(executor), Listener(monitor)
   {
     this->Task.Options = options;
-    this->Task.Look = [this](int iteration, const std::function<SurfaceResult()>&)
+    this->Task.Observe = [this](int iteration, const std::function<SurfaceResult()>&)
     {
       if (iteration > 0 && this->AfterSweep)
       {
@@ -67,7 +67,7 @@ public:
   }
 
   LevelTask Task; ///< Of the levels to come.
-  SurfaceAtRest Rest;
+  ConvergedSurface Rest;
   std::function<void()> AfterSweep;
   std::unique_ptr<Evolution> Now; ///< On the level.
 
@@ -109,7 +109,7 @@ public:
   SurfaceResult Result() const { return this->Now->Result(); }
   const std::vector<HistoryRow>& History() const { return this->Rest.History.Rows; }
   int Iterations() const { return this->Rest.History.Iterations(); }
-  LostParts Lost() const { return this->Now->Lost; }
+  MissedParts Missed() const { return this->Now->Missed; }
   Verdict Verified() const { return this->Now->Verified; }
   bool IsStopped() const { return this->Now->Stopped; }
 
@@ -125,7 +125,7 @@ private:
     this->Task.Start = start;
     auto before = std::exchange(this->Now,
       std::make_unique<Evolution>(this->Task, this->Rest.History, this->Executing, this->Listener));
-    const bool hasCome = ComeToLevel(*this->Now, this->Rest);
+    const bool hasCome = ReachLevel(*this->Now, this->Rest);
     if (!hasCome)
     {
       before->State.Mesh = std::move(this->Rest.Mesh);

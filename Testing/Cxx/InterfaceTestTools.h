@@ -7,17 +7,17 @@
 #include "Core/Interfaces/InterfaceClearance.h"
 #include "Core/Interfaces/InterfaceFields.h"
 #include "Core/Interfaces/InterfaceMesh.h"
-#include "Core/Labels/MapBeyond.h"
+#include "Core/Labels/LabelMapPadding.h"
 #include "Core/Mesh/SelfIntersections.h"
 #include "LabelTestTools.h"
 #include "SurfaceTopology.h"
 
 #include <optional>
 
-/** What tests of interfaces share. */
+/** Tools of the tests of interfaces. */
 namespace volumic
 {
-/** A map and all that interfaces are made of. */
+/** A label map with its bricks and fields. */
 struct InterfaceScene
 {
   LabelMap Map;
@@ -25,11 +25,11 @@ struct InterfaceScene
   std::optional<InterfaceFields> Fields;
 
   explicit InterfaceScene(LabelMap map) : InterfaceScene(map, VoxelBox::Of(map.Size())) {}
-  /** @param inside where objects end */
+  /** @param inside box at which objects end */
   InterfaceScene(LabelMap map, const VoxelBox& inside, bool isPeriodic = false)
     : Map(std::move(map))
   {
-    GoOnBeyond(this->Map, inside, isPeriodic);
+    PadLabelMap(this->Map, inside, isPeriodic);
     this->Bricks.emplace(this->Map, OnThisThread(), inside);
     this->Fields.emplace(
       *this->Bricks, LabelFieldOptions(), this->Map.Spacing, OnThisThread(),
@@ -38,7 +38,7 @@ struct InterfaceScene
   InterfaceScene(const InterfaceScene&) = delete;
 };
 
-/** Four blocks of n voxels that meet in the middle of a cube, with nothing about it. */
+/** Four blocks of n voxels that meet at the middle of a cube, surrounded by background. */
 inline LabelMap FourBlocks(int n)
 {
   const int margin = LabelBricks::Side;
@@ -51,7 +51,7 @@ inline LabelMap FourBlocks(int n)
     });
 }
 
-/** Cells about points by chance, each an object of its own; about each other or about nothing. */
+/** Truncated Voronoi cells of random points, each an object, in background. */
 inline LabelMap ManyCells(int side, int objects, unsigned seed)
 {
   const auto next = [&seed]
@@ -67,7 +67,7 @@ inline LabelMap ManyCells(int side, int objects, unsigned seed)
     {
       cell[axis] = margin + next() * (side - 2 * margin);
     }
-    cell[3] = 3. + next() * side / 4.; // Beyond that there is nothing.
+    cell[3] = 3. + next() * side / 4.; // maximum radius
   }
   return MakeLabelMap({ side, side, side }, objects,
     [&](int i, int j, int k)
@@ -89,7 +89,7 @@ inline LabelMap ManyCells(int side, int objects, unsigned seed)
     });
 }
 
-/** Grains about points by chance, which fill all, of voxels with a spacing. */
+/** Voronoi cells of random points that fill the map. */
 inline LabelMap Grains(
   const std::array<int, 3>& size, const std::array<double, 3>& spacing, int objects, unsigned seed)
 {
@@ -118,7 +118,7 @@ inline LabelMap Grains(
   return map;
 }
 
-/** Single voxels by chance, and beside each, or across an edge or a corner, another one. */
+/** Random pairs of voxels that share a face, an edge or a corner. */
 inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
 {
   const auto next = [&seed](int choices)
@@ -130,18 +130,18 @@ inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
   std::map<std::array<int, 3>, int> voxels;
   for (int n = 0; n < side; ++n)
   {
-    std::array<int, 3> place;
+    std::array<int, 3> voxel;
     const int object = 1 + next(objects);
-    for (int& at : place)
+    for (int& at : voxel)
     {
       at = margin + 1 + next(side - 2);
     }
-    voxels[place] = object;
-    for (int& at : place)
+    voxels[voxel] = object;
+    for (int& at : voxel)
     {
       at += next(3) - 1;
     }
-    voxels[place] = next(3) > 0 ? object : 1 + next(objects);
+    voxels[voxel] = next(3) > 0 ? object : 1 + next(objects);
   }
   const int size = side + 2 * margin;
   return MakeLabelMap({ size, size, size }, objects,
@@ -152,7 +152,7 @@ inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
     });
 }
 
-/** What each edge has about it. */
+/** Return the number of faces at each edge. */
 inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
 {
   std::map<std::array<int, 2>, int> edges;
@@ -169,9 +169,12 @@ inline std::map<std::array<int, 2>, int> FacesAtEdges(const InterfaceMesh& mesh)
 }
 
 /**
- * The invariants of interfaces: the surface of each object but 0 is closed, oriented and manifold,
- * and encloses something; nothing intersects; strata are those of the faces at the edges, which are
- * about lines in the order of their objects.
+ * Expect the invariants of interfaces:
+ * - The surface of each object except for 0 is closed, oriented and manifold, with a positive
+ *   volume.
+ * - No triangles intersect.
+ * - Strata correspond to the faces at the edges.
+ * - Faces at junction lines are in consistent order (AreInOrder).
  */
 inline void ExpectSound(const InterfaceMesh& mesh)
 {
@@ -180,25 +183,26 @@ inline void ExpectSound(const InterfaceMesh& mesh)
     EXPECT_TRUE(object == 0 || (surface.BadLinks == 0 && surface.Volume > 0.)) << object;
   }
   EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
-  InterfaceMesh anew = mesh;
-  anew.FindStrata();
+  InterfaceMesh recomputed = mesh;
+  recomputed.FindStrata();
   for (std::size_t v = 0; v < mesh.Position.size(); ++v)
   {
     if (mesh.IsVertex(static_cast<int>(v)))
     {
-      ASSERT_EQ(static_cast<int>(anew.StratumOf[v]), static_cast<int>(mesh.StratumOf[v])) << v;
+      ASSERT_EQ(static_cast<int>(recomputed.StratumOf[v]), static_cast<int>(mesh.StratumOf[v]))
+        << v;
     }
   }
   using Edges = std::set<std::array<int, 2>>;
   Edges lines;
-  std::vector<int> about;
+  std::vector<int> edgeFaces;
   for (const auto& edge : FacesAtEdges(mesh))
   {
     EXPECT_GE(edge.second, 2);
-    mesh.FindFaces(edge.first[0], edge.first[1], about);
-    const bool isAtSide = std::any_of(about.begin(), about.end(),
+    mesh.FindFaces(edge.first[0], edge.first[1], edgeFaces);
+    const bool isAtSide = std::any_of(edgeFaces.begin(), edgeFaces.end(),
       [&](int f) { return mesh.IsSide(mesh.Faces[static_cast<std::size_t>(f)].Front); });
-    if (edge.second != 2 || (isAtSide && mesh.IsLine(about)))
+    if (edge.second != 2 || (isAtSide && mesh.IsLine(edgeFaces)))
     {
       lines.insert(edge.first);
     }
@@ -208,21 +212,21 @@ inline void ExpectSound(const InterfaceMesh& mesh)
   EXPECT_EQ(found.size(), lines.size());
   for (const std::array<int, 2>& line : found)
   {
-    mesh.FindFaces(line[0], line[1], about);
-    std::vector<PlacedFace> placed;
-    for (const int f : about)
+    mesh.FindFaces(line[0], line[1], edgeFaces);
+    std::vector<FaceCoordinates> faces;
+    for (const int f : edgeFaces)
     {
-      placed.push_back(PlacedFaceOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
-      placed.back().Front =
-        mesh.IsSide(placed.back().Front) ? LabelMap::Number(0) : placed.back().Front;
+      faces.push_back(FaceCoordinatesOf(mesh, mesh.Faces[static_cast<std::size_t>(f)]));
+      faces.back().Front =
+        mesh.IsSide(faces.back().Front) ? LabelMap::Number(0) : faces.back().Front;
     }
-    EXPECT_TRUE(AreInOrder(line[0], line[1], placed)) << line[0] << ' ' << line[1];
+    EXPECT_TRUE(AreInOrder(line[0], line[1], faces)) << line[0] << ' ' << line[1];
   }
 }
 
 /**
- * Faces in front of which a side of the box is lie in its plane, and there are no others beyond it.
- * @return how many there are at each side
+ * Expect that faces on a side of the box lie in its plane, and that no face is beyond it.
+ * @return number of faces on each side
  */
 inline std::array<int, 6> ExpectFlatSides(const InterfaceMesh& mesh, const InterfaceFields& fields)
 {
@@ -252,7 +256,7 @@ inline std::array<int, 6> ExpectFlatSides(const InterfaceMesh& mesh, const Inter
   return counts;
 }
 
-/** Opposite sides have the same triangles of the same objects, to the last bit. */
+/** Expect bit-identical triangles of the same objects on opposite sides. */
 inline void ExpectMatchingSides(const InterfaceMesh& mesh)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -262,15 +266,15 @@ inline void ExpectMatchingSides(const InterfaceMesh& mesh)
     {
       if (face.IsThere() && mesh.IsSide(face.Front) && mesh.AxisOf(face.Front) == axis)
       {
-        std::set<std::array<float, 2>> places;
+        std::set<std::array<float, 2>> points;
         for (const int v : face.Vertex)
         {
           const Vector& p = mesh.Position[static_cast<std::size_t>(v)];
           const std::array<float, 3> at = { p.X, p.Y, p.Z };
-          places.insert({ at[(axis + 1) % 3], at[(axis + 2) % 3] });
+          points.insert({ at[(axis + 1) % 3], at[(axis + 2) % 3] });
         }
         sides[static_cast<std::size_t>((face.Front - mesh.FirstSide) % 2)].emplace(
-          face.Behind, places);
+          face.Behind, points);
       }
     }
     EXPECT_FALSE(sides[0].empty());
@@ -278,13 +282,13 @@ inline void ExpectMatchingSides(const InterfaceMesh& mesh)
   }
 }
 
-/** Of an object, in voxels if these are cubes of side 1. */
+/** Return the volume of an object in computational space. */
 inline double VolumeOf(const InterfaceMesh& mesh, int object)
 {
   return SurfacesOf(mesh).at(object).Volume;
 }
 
-/** Half of the sum over the surfaces of the objects but 0. */
+/** Return the sum of SurfaceTopology::Euler() over all objects except for 0. */
 inline double EulerCharacteristicOf(const InterfaceMesh& mesh)
 {
   double sum = 0.;

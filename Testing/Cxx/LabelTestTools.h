@@ -11,21 +11,19 @@
 
 namespace volumic
 {
-/** A map with the object that objectAt(i, j, k) names. */
-inline LabelMap MakeLabelMap(const std::array<int, 3>& size, int objects,
-  const std::function<int(int, int, int)>& objectAt)
+/** Return a map of the objects objectAt(i, j, k). */
+inline LabelMap MakeLabelMap(
+  const std::array<int, 3>& size, int objects, const std::function<int(int, int, int)>& objectAt)
 {
   LabelMap map(size);
   map.NumberOfObjects = objects;
   ForVoxels(size,
     [&](int i, int j, int k)
-    {
-      map.Set(i, j, k, static_cast<LabelMap::Number>(objectAt(i, j, k)));
-    });
+    { map.Set(i, j, k, static_cast<LabelMap::Number>(objectAt(i, j, k))); });
   return map;
 }
 
-/** Each voxel one of `objects` or none, by chance, but always the same. */
+/** Return a map with a pseudo-random object from 0 to `objects` at each voxel. */
 inline LabelMap NoisyLabelMap(const std::array<int, 3>& size, int objects, unsigned seed)
 {
   return MakeLabelMap(size, objects,
@@ -41,7 +39,7 @@ inline float ValueAt(const LabelField& field, int i, int j, int k)
   return field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))];
 }
 
-/** Calls visit(i, j, k, value) for each voxel of the field, also beyond the map. */
+/** Call visit(i, j, k, value) for each voxel of the field, also beyond the map. */
 template <typename Visitor>
 void ForVoxelsOf(const LabelField& field, Visitor&& visit)
 {

@@ -3,9 +3,9 @@
 
 // What the iso-value alone can't do: a few points close a gap in a wall, a map of edges finds a
 // boundary that no iso-value gives.
+#include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceTestTools.h"
-#include "WrongVoxels.h"
 
 #include <vtkDoubleArray.h>
 #include <vtkImageGradientMagnitude.h>
@@ -149,7 +149,8 @@ TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
   pyramid->SetInputData(image);
   pyramid->SetReductionFactor(1.5);
   pyramid->Update();
-  for (vtkDataObject* input : { static_cast<vtkDataObject*>(image), pyramid->GetOutputDataObject(0) })
+  for (vtkDataObject* input :
+    { static_cast<vtkDataObject*>(image), pyramid->GetOutputDataObject(0) })
   {
     const auto filter = EdgeFilterOf(input, scene);
     const SurfaceVerdict verdict = JudgeOutput(filter);
@@ -161,7 +162,8 @@ TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
 
 TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
 {
-  // Descent along the gradient of the negative gradient magnitude, whose valleys are the boundaries.
+  // Descent along the gradient of the negative gradient magnitude, whose valleys are the
+  // boundaries.
   const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
   const auto potential = GradientMagnitude(ToImage(scene));
   vtkDataArray* values = potential->GetPointData()->GetScalars();

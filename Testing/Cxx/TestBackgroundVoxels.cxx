@@ -123,8 +123,7 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
   pyramid->SetInputData(image);
   pyramid->Update();
   EXPECT_EQ(CountOf(warnings.Get(), "32000 NaN voxels"), 1) << warnings.Get();
-  EXPECT_EQ(
-    pyramid->GetOutput()->GetFieldData()->GetArray("NaNVoxels")->GetComponent(0, 0), 32000);
+  EXPECT_EQ(pyramid->GetOutput()->GetFieldData()->GetArray("NaNVoxels")->GetComponent(0, 0), 32000);
   for (const bool isByHand : { false, true })
   {
     vtkNew<vtkMultiBlockDataSet> blocks;
@@ -144,7 +143,8 @@ TEST(BlankedVoxels, AreAsNaNWithoutAWord)
 {
   // Points, points all of whose cells are hidden, and cells that are the voxels.
   const auto amongCells = BallImage(Size, Size, Size);
-  vtkUnsignedCharArray* hidden = AddGhosts(amongCells->GetCellData(), amongCells->GetNumberOfCells());
+  vtkUnsignedCharArray* hidden =
+    AddGhosts(amongCells->GetCellData(), amongCells->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < amongCells->GetNumberOfCells(); ++cell)
   {
     // The points at 20 are corners of the cells at 19, which are seen.
@@ -155,26 +155,25 @@ TEST(BlankedVoxels, AreAsNaNWithoutAWord)
   cells->SetOrigin(-0.5, -0.5, -0.5);
   cells->GetCellData()->SetScalars(Voxels(BallImage(Size, Size, Size)));
   vtkUnsignedCharArray* ghosts = AddGhosts(cells->GetCellData(), cells->GetNumberOfCells());
-  ForEach(Right,
-    [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
-  QuietSurface wanted;
-  ASSERT_GT(wanted.Of(BallWith(NaN, Right))->GetNumberOfPoints(), 100);
+  ForEach(
+    Right, [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
+  QuietSurface requested;
+  ASSERT_GT(requested.Of(BallWith(NaN, Right))->GetNumberOfPoints(), 100);
   for (const auto& image :
     { BallBlanked(Right, vtkDataSetAttributes::HIDDENPOINT), amongCells, cells })
   {
     QuietSurface surface;
     surface.Filter->SetNumberOfThreads(2);
-    EXPECT_TRUE(AreSameSurfaces(surface.Of(image), wanted.Filter->GetOutput()));
+    EXPECT_TRUE(AreSameSurfaces(surface.Of(image), requested.Filter->GetOutput()));
     EXPECT_EQ(surface.Warnings.Get(), "");
   }
 }
 
 TEST(BlankedVoxels, DuplicatesAreNone)
 {
-  QuietSurface wanted;
-  wanted.Of(BallImage(Size, Size, Size));
+  QuietSurface requested;
+  requested.Of(BallImage(Size, Size, Size));
   QuietSurface surface;
-  EXPECT_TRUE(
-    AreSameSurfaces(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
-      wanted.Filter->GetOutput()));
+  EXPECT_TRUE(AreSameSurfaces(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
+    requested.Filter->GetOutput()));
 }

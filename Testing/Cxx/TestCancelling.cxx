@@ -102,8 +102,8 @@ TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
   StopAt silent;
   TestEvolution evolution(Options(), Threads, silent);
   ASSERT_EQ(RunIn(scene, evolution, GetParam()), StopReason::Converged);
-  ASSERT_EQ(evolution.Lost().Enclosed, 1);
-  ASSERT_EQ(evolution.Lost().EnclosedCavities, 1);
+  ASSERT_EQ(evolution.Missed().Enclosed, 1);
+  ASSERT_EQ(evolution.Missed().EnclosedCavities, 1);
   EXPECT_TRUE(GetParam() || std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
     << "progress never goes back";
   EXPECT_GE((silent.Questions[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Small tools of the core that know no surface.
+#include "CommaLocale.h"
 #include "Core/Common/DisjointSets.h"
+#include "Core/Common/Executor.h"
 #include "Core/Common/FreeMemory.h"
 #include "Core/Common/Lanes.h"
-#include "Core/Common/Refuse.h"
-#include "Core/Common/Executor.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelNumbers.h"
-#include "CommaLocale.h"
 #include "TestPrelude.h"
 
 #include <fstream>
@@ -110,7 +110,7 @@ TEST(Join, WritesNumbersAsEveryoneReadsThem)
   ASSERT_EQ(local.str(), "1.234,5") << "the locale is not what it should be";
   EXPECT_EQ(Join("level ", 1000, ", ", std::int64_t(1234567), " voxels of ", 0.5f),
     "level 1000, 1234567 voxels of 0.5");
-  EXPECT_EQ(RefusalOf([] { Refuse("it is ", 1234.5, "."); }), "it is 1234.5.");
+  EXPECT_EQ(ErrorMessageOf([] { ThrowInvalidArgument("it is ", 1234.5, "."); }), "it is 1234.5.");
 }
 
 TEST(VoxelNumbers, ComeBackToTheirPlaces)
@@ -125,7 +125,7 @@ TEST(VoxelNumbers, ComeBackToTheirPlaces)
     const std::array<int, 3> middle = { size[0] / 2, size[1] / 3, last[2] };
     for (const std::array<int, 3>& place : { last, middle })
     {
-      EXPECT_EQ(numbers.PlaceOf(numbers.Of(place[0], place[1], place[2])), place);
+      EXPECT_EQ(numbers.IjkOf(numbers.Of(place[0], place[1], place[2])), place);
     }
   }
 }

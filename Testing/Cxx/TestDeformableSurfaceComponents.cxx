@@ -207,8 +207,8 @@ TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
   this->SetSeed(28.5, 27.0, 27.0);
   MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   EXPECT_TRUE(this->Volumes().empty());
-  EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none")) << warnings.Get();
-  EXPECT_FALSE(warnings.Has("Level 1")) << "once, for the finest level: " << warnings.Get();
+  EXPECT_TRUE(warnings.Has("surface of level 0 is empty: Keep Components")) << warnings.Get();
+  EXPECT_FALSE(warnings.Has("level 1")) << "once, for the finest level: " << warnings.Get();
 }
 
 TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)

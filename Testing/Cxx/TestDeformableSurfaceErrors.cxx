@@ -72,9 +72,9 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
     { [](vtkDeformableSurface* f) { f->SetCoarsestLevel(5); },
       { "Coarsest Level is 5", "levels 0 to 2" } },
     { [](vtkDeformableSurface* f) { f->SetCoarsestLevel(1), f->SetFinestLevel(2); },
-      { "Finest Level is 2", "between 0 and the coarsest level, 1" } },
+      { "Finest Level is 2", "Set it to 0 to 1, the coarsest level" } },
     { [](vtkDeformableSurface* f) { f->SetFinestLevel(-2); },
-      { "Finest Level is -2", "or be -1 for a last division" } },
+      { "Finest Level is -2", "or to -1 for a subdivision" } },
     { [](vtkDeformableSurface* f) { f->SetInitialization(4); }, { "Initialization is 4", "0 to 3" } },
     { [](vtkDeformableSurface* f) { f->SetBorderValue(2); }, { "Border Value is 2", "0 to 1" } },
     { [](vtkDeformableSurface* f) { f->SetRecovery(-1); }, { "Recovery is -1" } },
@@ -99,7 +99,7 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
         f->SetInitializationToInputSurface();
         f->SetInitialSurfaceData(broken);
       },
-      { "Input port 1", "initial surface is damaged: a cell has point 1000000" } },
+      { "Input port 1", "the data have a cell with point 1000000" } },
     { [](vtkDeformableSurface* f)
       {
         f->SetInitializationToSeeds();
@@ -110,7 +110,7 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
   for (const double iso : { -5.0, 100.0, 101.0, infinite })
   {
     cases.push_back({ [iso](vtkDeformableSurface* f) { f->SetIsoValue(iso); },
-      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range", "0 to 100" } });
+      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range", "between 0 and 100" } });
   }
   for (const Case& test : cases)
   {
@@ -123,7 +123,7 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
 {
   this->Filter->SetInputDataObject(OneVoxel(100.0));
   this->Filter->SetCoarsestLevel(2);
-  this->ExpectError({ "vanished at level 2", "above Iso Value 50", "set Coarsest Level to 0" });
+  this->ExpectError({ "coarsest level, 2", "above Iso Value 50", "Set Coarsest Level to 0" });
 }
 
 TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
@@ -134,8 +134,8 @@ TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
   this->Filter->SetCoarsestLevel(0);
   const std::string warnings = MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent);
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(Has(warnings, "Nothing is left of the surface at level 0"));
-  EXPECT_TRUE(Has(warnings, "No level is finer: check Iso Value"));
+  EXPECT_TRUE(Has(warnings, "The surface has vanished at level 0"));
+  EXPECT_TRUE(Has(warnings, "Check Iso Value and Object Is Bright"));
   EXPECT_FALSE(Has(warnings, "Set CoarsestLevel"));
 }
 
@@ -175,7 +175,7 @@ TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)
     voxels->Modified();
     cast->GetOutput()->Modified();
     this->Filter->SetInputDataObject(cast->GetOutput());
-    this->ExpectError({ "Input port 0: level", "array", "in size", "Scale the image" });
+    this->ExpectError({ "Input port 0: level", "array", "absolute values", "Scale the image" });
   }
 }
 
@@ -187,22 +187,22 @@ TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
     std::vector<std::string> Parts;
   };
   const std::vector<Spoil> spoils = {
-    { [](vtkMultiBlockDataSet* b) { b->SetNumberOfBlocks(0); }, { "no level" } },
+    { [](vtkMultiBlockDataSet* b) { b->SetNumberOfBlocks(0); }, { "has no blocks" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, nullptr); }, { "block 1 is empty" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, vtkNew<vtkPolyData>()); },
       { "block 1 is vtkPolyData" } },
     { [](vtkMultiBlockDataSet* b) { Level(b, 1)->SetSpacing(1, 1, 1); },
-      { "block 1", "real size along x is 18", "block 0 is 32" } },
+      { "block 1", "length along x is 18", "block 0 is 32" } },
     { [](vtkMultiBlockDataSet* b) { Level(b, 1)->SetOrigin(0, 3, 0); },
-      { "block 1", "first voxel lies at 3 along y" } },
+      { "block 1", "first voxel is at 3 along y" } },
     { [](vtkMultiBlockDataSet* b)
       {
         const double turned[9] = { 0, 1, 0, -1, 0, 0, 0, 0, 1 };
         Level(b, 1)->SetDirectionMatrix(turned);
       },
-      { "block 1", "direction differs" } },
+      { "block 1", "direction matrix differs" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, b->GetBlock(0)); },
-      { "block 1", "32 x 32 x 32 voxels, and block 0 below it 32 x 32 x 32" } },
+      { "block 1", "32 x 32 x 32 voxels, not fewer than block 0 with 32 x 32 x 32" } },
   };
   for (const Spoil& spoil : spoils)
   {

@@ -144,7 +144,7 @@ TEST_F(DeformableSurfacePositions, SelectionsAreAmongThePartsAtSeeds)
   }
   this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
   EXPECT_TRUE(Has(MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent),
-    "Keep Components leaves none"));
+    "Keep Components selects none"));
 }
 
 TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
@@ -191,17 +191,17 @@ TEST_F(DeformableSurfacePositions, OnesOutsideTheImageOrTheObjectAreRefused)
   this->Filter->SetInitializationToSeeds();
   this->AddSeed(InLeft);
   this->Filter->AddSeedPosition(12, 12, 13);
-  this->ExpectError({ "Seed Positions: point 1 (12, 12, 13) lies outside the image", "move it" });
+  this->ExpectError({ "Seed Positions: point 1 (12, 12, 13) is outside the image", "Move it" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddSeedPosition(std::numeric_limits<double>::quiet_NaN(), 12, 13);
   this->ExpectError({ "Seed Positions: point 0" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddSeedPosition(125, 2, 2);
-  this->ExpectError({ "Seed Positions: The seed does not lie inside the object",
-    "above Iso Value 50", "the value there is 0. Move it" });
+  this->ExpectError({ "Seed Positions: the seed is not inside the object",
+    "above Iso Value 50", "the value at the seed is 0. Move it" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddAttractingPosition(12, 12, 13);
-  this->ExpectError({ "Attracting Positions: point 0 (12, 12, 13) lies outside the image" });
+  this->ExpectError({ "Attracting Positions: point 0 (12, 12, 13) is outside the image" });
 }
 
 TEST_F(DeformableSurfacePositions, OnesPickedOnTheBorderAreInside)

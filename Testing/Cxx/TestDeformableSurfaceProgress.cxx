@@ -47,11 +47,11 @@ TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
     int Number;
     int Level; ///< of the surface handed over
   };
-  for (const Case& test : { Case{ "Level 2, start", 1, 2 }, Case{ "Level 2, regularisation", 1, 2 },
-         Case{ "Level 2, regularisation", 4, 2 }, Case{ "Level 2 is done", 1, 2 },
-         Case{ "Level 1, division", 1, 1 }, Case{ "Level 1 is done", 1, 1 },
-         Case{ "Level 0, division", 1, 0 }, Case{ "Level 0, search for lost parts", 2, 0 },
-         Case{ "Level 0, regularisation", 3, 0 } })
+  for (const Case& test : { Case{ "Level 2, start", 1, 2 }, Case{ "Level 2, optimization", 1, 2 },
+         Case{ "Level 2, optimization", 4, 2 }, Case{ "Level 2 is done", 1, 2 },
+         Case{ "Level 1, subdivision", 1, 1 }, Case{ "Level 1 is done", 1, 1 },
+         Case{ "Level 0, subdivision", 1, 0 }, Case{ "Level 0, recovery", 2, 0 },
+         Case{ "Level 0, optimization", 3, 0 } })
   {
     SCOPED_TRACE(test.Part);
     const auto filter = Cancelled(test.Part, test.Number);

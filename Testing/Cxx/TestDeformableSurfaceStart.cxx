@@ -81,13 +81,13 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
     { vtkDeformableSurface::RecoverObjects, vtkDeformableSurface::RecoverObjectsAndCavities })
   {
     SCOPED_TRACE(recovery);
-    const bool wanted = recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
-    const auto filter = SurfaceOf(image,
-      [&](vtkDeformableSurface* f) { f->SetRecovery(recovery); });
+    const bool requested = recovery == vtkDeformableSurface::RecoverObjectsAndCavities;
+    const auto filter =
+      SurfaceOf(image, [&](vtkDeformableSurface* f) { f->SetRecovery(recovery); });
     vtkPolyData* surface = filter->GetOutput();
-    ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), wanted ? 2 : 1);
+    ASSERT_EQ(FieldOf(surface, "NumberOfComponents"), requested ? 2 : 1);
     EXPECT_EQ(FieldOf(surface, "Genus"), 0);
-    if (wanted)
+    if (requested)
     {
       EXPECT_EQ(SumOverLevels(filter, "RecoveredCavities"), 1);
       EXPECT_NEAR(FieldOf(surface, "ComponentVolume", 1) / std::pow(-15.0, 3), 1.0, 0.08);
@@ -124,8 +124,8 @@ TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
 {
   // Of a rod the level on which it comes in sight shows the middle only, which is brighter: fewer
   // voxels than MinimumPartSize.
-  const auto filter = SurfaceOf(RodWithBrightMiddle(64, 3),
-    [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  const auto filter =
+    SurfaceOf(RodWithBrightMiddle(64, 3), [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   const unsigned int first = FirstLevelOf(filter);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
@@ -173,7 +173,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
   const MessagesOf warnings(filter, vtkCommand::WarningEvent);
   filter->Update();
   EXPECT_EQ(errors.Get(), "");
-  EXPECT_TRUE(warnings.Has("Nothing is left of the surface at level 0")) << warnings.Get();
+  EXPECT_TRUE(warnings.Has("The surface has vanished at level 0")) << warnings.Get();
 }
 
 TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)

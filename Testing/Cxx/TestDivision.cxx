@@ -9,7 +9,7 @@ using namespace volumic;
 
 namespace
 {
-void MakeRoom(KeptEdges& kept)
+void LimitValence(KeptEdges& kept)
 {
   for (auto full = kept.FindOverfull(); !full.empty(); full = kept.FindOverfull())
   {
@@ -21,11 +21,11 @@ void MakeRoom(KeptEdges& kept)
 }
 }
 
-TEST(Division, IsTheSameOnThreads)
+TEST(Division, IsIndependentOfThreads)
 {
-  // More faces than threads look at at a time.
+  // More faces than one task processes.
   SurfaceMesh old = MakeSphere({ 0, 0, 0 }, 20, 0.5);
-  old.Reorder(SpaceFillingOrder(old, 1.)); // Else the first vertices have all faces.
+  old.Reorder(SpaceFillingOrder(old, 1.)); // Otherwise all faces belong to the first vertices.
   ASSERT_GT(old.NumberOfFaces(), 20000);
   KeptEdges kept(old);
   for (int v = 0; v < old.Size(); v += 7)
@@ -39,10 +39,10 @@ TEST(Division, IsTheSameOnThreads)
   EXPECT_EQ(divided.Triangles, alone.Triangles);
 }
 
-TEST(Division, IsSoundWhicheverEdgesAreKept)
+TEST(Division, YieldsValidMeshForAnyKeptEdges)
 {
   std::mt19937 engine(7);
-  for (int share : { 1, 5, 9 })
+  for (int tenths : { 1, 5, 9 })
   {
     SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 3);
     const SurfaceMesh copy = mesh;
@@ -53,14 +53,14 @@ TEST(Division, IsSoundWhicheverEdgesAreKept)
       for (int i = 0; i < copy.Rings[v].Count; ++i)
       {
         const int w = copy.Rings[v].Item[i];
-        if (v < w && static_cast<int>(engine() % 10) < share)
+        if (v < w && static_cast<int>(engine() % 10) < tenths)
         {
           kept.Keep(v, w);
           ++edges;
         }
       }
     }
-    MakeRoom(kept);
+    LimitValence(kept);
     mesh = Divide(copy, &kept);
     EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
     EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
@@ -69,9 +69,9 @@ TEST(Division, IsSoundWhicheverEdgesAreKept)
   }
 }
 
-TEST(Division, FindsRoomForKeptEdgesInFullRings)
+TEST(Division, LimitsValenceWithKeptEdges)
 {
-  // Both tips of a double cone have 15 neighbours: every other edge kept would make them 22.
+  // Both tips of a double cone have 15 neighbours. Every other edge kept would give 22.
   constexpr int sides = Ring::Capacity;
   SurfaceMesh mesh;
   mesh.Append(MakeDoubleCone({ 0, 0, 0 }, 5, 5, sides));
@@ -82,7 +82,7 @@ TEST(Division, FindsRoomForKeptEdgesInFullRings)
     kept.Keep(0, 2 + i);
   }
   EXPECT_EQ(kept.FindOverfull(), std::vector<int>({ 0 }));
-  MakeRoom(kept);
+  LimitValence(kept);
   mesh = Divide(copy, &kept);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.Rings[0].Count, sides);
@@ -90,21 +90,26 @@ TEST(Division, FindsRoomForKeptEdgesInFullRings)
 
 namespace
 {
-/** What an evolution makes of a surface that a plain division makes intersect itself, at `unit`. */
+/**
+ * Divide by an evolution, with edges of `unit`, a surface that a plain division makes intersect
+ * itself.
+ */
 SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
 {
   SurfaceMesh plain;
   plain.Append(given);
-  EXPECT_GT(CountSelfIntersections(Divide(plain).ToIndexed()), 0) << "else it shows nothing";
+  EXPECT_GT(CountSelfIntersections(Divide(plain).ToIndexed()), 0)
+    << "the test requires an intersection";
 
   const TestVolume volume = BallVolume(16, 4.);
   SurfaceOptions options = IsoHalf();
   options.SamplingRatio = 1.;
-  options.RecoverLostParts = false;
-  options.SnapToIsoValue = false; // Else it is led to the field before it is divided.
+  options.RecoverMissedParts = false;
+  options.SnapToIsoValue = false; // Otherwise the surface is moved before it is divided.
   TestEvolution evolution(options, Threads, Silent);
   evolution.StartSurface(volume.Image, 1, given);
-  EXPECT_EQ(evolution.Result().Points.size(), given.Points.size()) << "taken as it is";
+  EXPECT_EQ(evolution.Result().Points.size(), given.Points.size())
+    << "the start must not change the surface";
   LevelImage fine = volume.Image;
   fine.Unit = unit;
   evolution.Divide(fine, 0);
@@ -112,10 +117,10 @@ SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
 }
 }
 
-TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
+TEST(Division, PreservesGapBetweenComponents)
 {
-  // The division cuts the edges of an icosahedron off. A small one inside, a cavity, has a corner
-  // just beneath the middle of such an edge, where the divided surface would pass through it.
+  // The division cuts off the edges of an icosahedron. A small cavity inside has a corner just
+  // below the midpoint of such an edge. A plain division would make the surfaces intersect.
   const auto make = []
   {
     IndexedSurface surface = Icosahedron({ 0, 0, 0 }, 2.37);
@@ -128,7 +133,7 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
     }
     up = Normalized(up);
     IndexedSurface inner = Icosahedron({ 0, 0, 0 }, 0.96);
-    // Turned so that its first corner points up.
+    // Rotate it so that its first corner points up.
     const Point& c = inner.Points[0];
     const VectorD corner = Normalized(VectorD(c[0], c[1], c[2]));
     const VectorD half = Normalized(corner + up);
@@ -151,7 +156,8 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
   };
   const IndexedSurface given = make();
   ASSERT_EQ(CountSelfIntersections(given), 0);
-  // One division, and two in a row, the first of which leaves edges longer than the last level's.
+  // One division, and two in a row. The first of these leaves edges longer than those of the last
+  // level.
   for (double unit : { 1. / std::sqrt(3.), 1. / 3. })
   {
     const SurfaceResult divided = DivideWithin(given, unit);
@@ -165,11 +171,10 @@ TEST(Division, KeepsABodyClearOfTheWallsAboutIt)
   }
 }
 
-TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
+TEST(Division, SearchRadiusCoversLongEdges)
 {
-  // A body with a groove, which the division fills, and a blade in the groove. They
-  // intersect in the middle of edges, far from all corners if the last of five divisions is the
-  // measure.
+  // A body with a groove, which the division fills, and a blade in the groove. They intersect at
+  // the midpoints of edges, far from all corners in the unit of the last of five divisions.
   IndexedSurface given;
   given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
     { 0, -0.87, 0.1 }, { 0, 0.87, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
@@ -193,6 +198,6 @@ TEST(Division, LooksAsFarAsTheEdgesItLeavesReach)
     {
       nearest = std::min(nearest, Distance(p[0], p[1], p[2], old[0], old[1], old[2]));
     }
-    EXPECT_LT(nearest, 1e-5) << "divided, not remeshed as what intersects itself is";
+    EXPECT_LT(nearest, 1e-5) << "the division must not fall back to remeshing";
   }
 }

@@ -8,7 +8,7 @@ using namespace volumic;
 
 namespace
 {
-/** All partitions of the octants of a cell into labels, which are numbered as they come. */
+/** Return all partitions of the octants of a cell into labels, numbered by first occurrence. */
 std::vector<std::array<int, 8>> AllPatterns()
 {
   std::vector<std::array<int, 8>> patterns;
@@ -31,8 +31,8 @@ std::vector<std::array<int, 8>> AllPatterns()
 }
 
 /**
- * All patterns in one map, each of labels of its own with background about it.
- * @param isWithBackground one label of each is the background
+ * Test all patterns in one map, each with its own labels and surrounded by background.
+ * @param isWithBackground whether one label of each pattern is the background
  */
 void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
 {
@@ -65,7 +65,7 @@ void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
     });
   scene.RankAtRandom(seed);
   const InterfaceMesh mesh = scene.Mesh();
-  if (seed == 1) // which takes most of the time
+  if (seed == 1) // The test is slow.
   {
     EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
   }
@@ -81,7 +81,7 @@ void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
     });
 }
 
-/** Of a label alone, by the voxels; the mesh agrees. */
+/** Expect the topology of a label from its voxels and from the mesh. */
 void ExpectBlock(const VoxelScene& scene, int label, const BlockTopology& expected)
 {
   EXPECT_EQ(scene.Voxels().Count().at(label), expected);
@@ -89,7 +89,7 @@ void ExpectBlock(const VoxelScene& scene, int label, const BlockTopology& expect
 }
 }
 
-TEST(DualMesh, HasTheTopologyOfEveryPattern)
+TEST(DualMesh, PreservesTopologyOfAllPatterns)
 {
   for (const unsigned seed : { 1, 2, 3 })
   {
@@ -98,7 +98,7 @@ TEST(DualMesh, HasTheTopologyOfEveryPattern)
   }
 }
 
-TEST(DualMesh, HasTheTopologyOfNoise)
+TEST(DualMesh, PreservesTopologyOfNoise)
 {
   for (const int labels : { 2, 3, 5, 10 })
   {
@@ -111,20 +111,20 @@ TEST(DualMesh, HasTheTopologyOfNoise)
   }
 }
 
-TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)
+TEST(DualMesh, PreservesIsolatedAndDiagonalVoxels)
 {
   std::mt19937 random(1);
   int labels = 0;
-  const VoxelScene dust(
+  const VoxelScene isolated(
     { 16, 16, 16 }, [&](int, int, int) { return random() % 4 == 0 ? ++labels : 0; });
-  ExpectSound(dust, dust.Mesh());
+  ExpectSound(isolated, isolated.Mesh());
   for (int other = 1; other <= 2; ++other)
   {
-    const auto pair = [&](const Voxel& place)
+    const auto pair = [&](const Voxel& voxel)
     {
       return VoxelScene({ 4, 4, 4 },
         [=](int i, int j, int k) {
-          return Voxel{ i, j, k } == Voxel{ 1, 1, 1 } ? 1 : Voxel{ i, j, k } == place ? other : 0;
+          return Voxel{ i, j, k } == Voxel{ 1, 1, 1 } ? 1 : Voxel{ i, j, k } == voxel ? other : 0;
         });
     };
     const int parts = other == 1 ? 2 : 1;
@@ -133,7 +133,7 @@ TEST(DualMesh, KeepsVoxelsThatAreAloneOrMeetAtEdgesAndCorners)
   }
 }
 
-TEST(DualMesh, IsTheSameForAnyNumberOfThreads)
+TEST(DualMesh, IsIndependentOfThreadCount)
 {
   for (const VoxelScene& scene : { NoiseScene(20, 4, 1), GrainScene(40, 20, 0, 2) })
   {
@@ -148,7 +148,7 @@ TEST(DualMesh, IsTheSameForAnyNumberOfThreads)
   }
 }
 
-TEST(DualMesh, EndsInThePlanesOfABox)
+TEST(DualMesh, LiesInPlanesOfBoxSides)
 {
   for (VoxelScene scene : { NoiseScene(8, 2, 1, true), NoiseScene(8, 4, 2, true),
          NoiseScene(8, 9, 3, true), GrainScene(12, 15, 1, 1, 16) })

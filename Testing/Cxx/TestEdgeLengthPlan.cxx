@@ -14,7 +14,7 @@ const double LeastRatio = std::sqrt(3.) / 2.5;
 
 std::string ErrorOf(double length)
 {
-  return RefusalOf([&] { PlanEdgeLength(length, Size, Spacing, EdgeLengthPreferences()); });
+  return ErrorMessageOf([&] { PlanEdgeLength(length, Size, Spacing, EdgeLengthPreferences()); });
 }
 }
 
@@ -50,8 +50,8 @@ TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
 
 TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
 {
-  EXPECT_TRUE(Has(ErrorOf(0.2),
-    "Edge Length is 0.2, but edges of this image can have mean lengths of 0.566"));
+  EXPECT_TRUE(Has(
+    ErrorOf(0.2), "Edge Length is 0.2, but edges of this image can have mean lengths of 0.566"));
   EXPECT_TRUE(Has(ErrorOf(0.2), "Resample the image more finely"));
   EXPECT_TRUE(Has(ErrorOf(100.), "Give a shorter one"));
   EXPECT_TRUE(Has(ErrorOf(0.), "it must be 0 (automatic) or a length"));

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/AskingExecutor.h"
+#include "Core/Common/CancellableExecutor.h"
 #include "Core/Common/Sort.h"
 #include "ThreadTestTools.h"
 
@@ -48,7 +48,8 @@ TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
       return seen.size();
     };
     // The first items wait for all threads.
-    threads.For(300, 1, [&](std::size_t, std::size_t) { HasCome([&] { return count() >= number; }); });
+    threads.For(
+      300, 1, [&](std::size_t, std::size_t) { HasReachedEnd([&] { return count() >= number; }); });
     EXPECT_EQ(seen.size(), number);
   }
 }
@@ -122,14 +123,14 @@ TEST(Executor, Sorts)
   }
 }
 
-TEST(AskingExecutor, CancelsOnTheCallingThread)
+TEST(CancellableExecutor, CancelsOnTheCallingThread)
 {
   for (const int number : { 1, 3 })
   {
     Executor threads(number);
     const std::thread::id caller = std::this_thread::get_id();
     int asked = 0;
-    AskingExecutor asking(threads,
+    CancellableExecutor asking(threads,
       [&]
       {
         EXPECT_EQ(std::this_thread::get_id(), caller);
@@ -142,7 +143,7 @@ TEST(AskingExecutor, CancelsOnTheCallingThread)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       done += int(end - begin);
     };
-    EXPECT_THROW(asking.For(n, 1, body), StoppedWork);
+    EXPECT_THROW(asking.For(n, 1, body), OperationCancelled);
     EXPECT_EQ(asked, 3);
     EXPECT_GE(done, 3);
     EXPECT_LT(done, n);

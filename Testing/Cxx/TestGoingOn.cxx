@@ -125,7 +125,7 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
     choices[i](this->Filter);
     const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
     EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
-    EXPECT_EQ(warnings.Has("Level 0: Keep Components leaves none"), i == 3);
+    EXPECT_EQ(warnings.Has("surface of level 0 is empty: Keep Components"), i == 3);
     const Choice allSoFar = [&](vtkDeformableSurface* filter)
     { std::for_each(choices, choices + i + 1, [&](const Choice& choose) { choose(filter); }); };
     ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 0, allSoFar));
@@ -155,9 +155,9 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
     int Finest;
     int Stops = 2;
   };
-  for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 }, Case{ "Level 2, division", 1, 2, 0 },
-         Case{ "Level 1, search for lost parts", 1, 1, 0 }, Case{ "Level 0, division", 1, 0, 0 },
-         Case{ "Level 0, iteration", 2, 0, 0 }, Case{ "Level 0, regularisation", 3, 0, 0 },
+  for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 }, Case{ "Level 2, subdivision", 1, 2, 0 },
+         Case{ "Level 1, recovery", 1, 1, 0 }, Case{ "Level 0, subdivision", 1, 0, 0 },
+         Case{ "Level 0, iteration", 2, 0, 0 }, Case{ "Level 0, optimization", 3, 0, 0 },
          Case{ "Level -1, iteration", 2, -1, -1 } })
   {
     SCOPED_TRACE(test.Part);

@@ -39,7 +39,8 @@ using Outside = std::function<double(double x, double y, double z)>;
 /** What is nearer than 0 to something is more than half. */
 TestVolume VolumeOf(const Outside& outside)
 {
-  return MakeVolume(48, [&outside](double x, double y, double z)
+  return MakeVolume(48,
+    [&outside](double x, double y, double z)
     { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
 }
 
@@ -57,8 +58,7 @@ SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
 }
 
 /** Calls visit(u, v, length) for each edge, twice. */
-void VisitEdges(
-  const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
+void VisitEdges(const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
 {
   for (const Triangle& t : surface.Triangles)
   {
@@ -98,7 +98,8 @@ Outside OutsidePlate(double thickness)
   };
 }
 
-/** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel. */
+/** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel.
+ */
 Outside OutsideBlurredPlate(double thickness)
 {
   return [thickness](double x, double y, double z)
@@ -107,8 +108,8 @@ Outside OutsideBlurredPlate(double thickness)
     const double v = -0.6 * (x - 24.) + 0.8 * (y - 24.);
     const double across = 0.96 * (z - 24.) + 0.28 * u;
     const double along = 0.96 * u - 0.28 * (z - 24.);
-    const double rim = std::max(std::abs(along) - 16., std::abs(v) - 15.);
-    return std::max(3. * (std::abs(across) - 0.5 * thickness), rim);
+    const double link = std::max(std::abs(along) - 16., std::abs(v) - 15.);
+    return std::max(3. * (std::abs(across) - 0.5 * thickness), link);
   };
 }
 
@@ -117,7 +118,7 @@ struct TwoLevels
 {
   SurfaceResult Divided; ///< As it comes to the finer level,
   SurfaceResult AtRest;  ///< and when it rests there.
-  LostParts Lost;
+  MissedParts Missed;
 };
 TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, double fineUnit = 1.)
 {
@@ -138,7 +139,7 @@ TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, dou
   EXPECT_TRUE(reason == StopReason::Converged || reason == StopReason::LimitCycle);
   EXPECT_EQ(evolution.Verified().Found, 0);
   result.AtRest = evolution.Result();
-  result.Lost = evolution.Lost();
+  result.Missed = evolution.Missed();
   return result;
 }
 
@@ -154,25 +155,25 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
 {
   const LargeVector<float> sizes = { 1.f, 4.f };
   const SizingField even(1.f);
-  EXPECT_EQ(even.Further(), 1.f);
-  float before = even.Reach(0);
+  EXPECT_EQ(even.RadiusFactor(), 1.f);
+  float before = even.SearchRadius(0);
   for (const double gradation : { .1, .2, .3 })
   {
     SCOPED_TRACE(gradation);
     const SizingField sizing = even.Graded(sizes, 4.f, static_cast<float>(gradation));
-    EXPECT_GT(sizing.Reach(0), before);
-    before = sizing.Reach(0);
+    EXPECT_GT(sizing.SearchRadius(0), before);
+    before = sizing.SearchRadius(0);
     // From v to a point of its star, and on to a corner of a face that grows with the distance d:
     // d = .36 longest + (1 + g d) 2.5 / sqrt 3, both in delta.
     const double longest = 1. / (1. - 1.25 * gradation); // Its delta is the mean of both ends'.
-    const double furthest = (.36 * longest + 2.5 / std::sqrt(3.)) /
-      (1. - gradation * 2.5 / std::sqrt(3.));
-    EXPECT_GT(sizing.Reach(0), furthest);
-    EXPECT_EQ(sizing.Reach(1), SizingField(4.f).Reach(1)) << "nothing is larger";
+    const double furthest =
+      (.36 * longest + 2.5 / std::sqrt(3.)) / (1. - gradation * 2.5 / std::sqrt(3.));
+    EXPECT_GT(sizing.SearchRadius(0), furthest);
+    EXPECT_EQ(sizing.SearchRadius(1), SizingField(4.f).SearchRadius(1)) << "nothing is larger";
   }
   // While it evolves a part with the largest may come near to one with the least.
   const SizingField any = even.Graded(sizes, 4.f, 1.f);
-  EXPECT_EQ(any.Reach(0), SizingField(4.f).Reach(0));
+  EXPECT_EQ(any.SearchRadius(0), SizingField(4.f).SearchRadius(0));
 }
 
 TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
@@ -226,8 +227,8 @@ TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
   EXPECT_LT(some.Divided.Points.size(), 2 * coarse.Points.size());
   // It is as good as one that was divided everywhere.
   const SurfaceResult whole = SurfaceOf(OutsideBoxAndBall, Within(tolerance));
-  EXPECT_GT(some.AtRest.FitToTolerance->WithinTolerance,
-    whole.FitToTolerance->WithinTolerance - 0.005);
+  EXPECT_GT(
+    some.AtRest.FitToTolerance->WithinTolerance, whole.FitToTolerance->WithinTolerance - 0.005);
   EXPECT_LT(some.AtRest.Points.size(), 1.1 * whole.Points.size());
   EXPECT_NEAR(ComputeFeatures(some.AtRest).Volume, ComputeFeatures(whole).Volume,
     0.002 * ComputeFeatures(whole).Volume);
@@ -248,5 +249,5 @@ TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
   const SurfaceFeatures features = ComputeFeatures(levels.AtRest);
   EXPECT_EQ(features.Components.size(), 1u);
   EXPECT_EQ(features.Genus, 0);
-  EXPECT_EQ(levels.Lost.MissingBoundary, 0.);
+  EXPECT_EQ(levels.Missed.MissingBoundary, 0.);
 }

@@ -57,7 +57,10 @@ TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
   EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
   for (const double step : { 1e6, 1e20, 1e300 })
   {
-    EXPECT_TRUE(Has(RefusalOf([&] { EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.); }),
+    EXPECT_TRUE(Has(ErrorMessageOf(
+                      [&] {
+                        EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.);
+                      }),
       "times as long as wide. Check the Spacing"));
   }
 }

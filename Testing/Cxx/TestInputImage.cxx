@@ -105,13 +105,13 @@ TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
 TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
 {
   const auto image = BallImage(40, 40, 40);
-  const auto wanted = Updated<vtkVolumeToSurface>(image);
+  const auto requested = Updated<vtkVolumeToSurface>(image);
   for (const auto& holder : HoldersOf(image))
   {
     SCOPED_TRACE(holder->GetClassName());
     const auto filter = Updated<vtkVolumeToSurface>(holder);
     ASSERT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
-    EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), wanted->GetOutput()));
+    EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), requested->GetOutput()));
     const auto pyramid = Updated<vtkImagePyramid>(holder);
     ASSERT_GT(pyramid->GetOutput()->GetNumberOfBlocks(), 1u);
     EXPECT_EQ(Voxels(Level(pyramid->GetOutput(), 0)), Voxels(image));

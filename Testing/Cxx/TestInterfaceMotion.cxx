@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/InterfaceMotion.h"
+
 #include "Core/Common/Executor.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceStart.h"
@@ -12,7 +13,7 @@ using namespace volumic;
 
 namespace
 {
-/** Mean of how different the fields of the objects about a vertex are. */
+/** Return the mean range of the fields of the objects at each vertex. */
 double MeanDifference(const InterfaceMesh& mesh, const InterfaceFields& fields)
 {
   double sum = 0.;
@@ -43,7 +44,7 @@ InterfaceMesh RoughMesh(const InterfaceScene& scene)
   return mesh;
 }
 
-/** Begins with what is last. */
+/** Runs loops backwards. */
 class BackwardExecutor final : public Executor
 {
 public:
@@ -62,7 +63,7 @@ InterfaceMesh StartOf(const InterfaceScene& scene)
   return StartInterfaces(*scene.Fields, OnThisThread());
 }
 
-/** After collapses and flips. */
+/** Return the mesh after collapses and flips. */
 InterfaceMesh Edited(InterfaceMesh mesh, Executor& executor)
 {
   InterfaceRemesher remesher(mesh, 1.1, 1.8, 1e-3, executor, [] { return true; });
@@ -91,7 +92,7 @@ void ExpectSame(const InterfaceMesh& a, const InterfaceMesh& b)
 }
 }
 
-TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
+TEST(InterfaceRemesher, IsIndependentOfCubeOrder)
 {
   const InterfaceScene scene(ManyCells(64, 60, 2));
   const InterfaceMesh start = StartOf(scene);
@@ -103,7 +104,7 @@ TEST(InterfaceRemesher, MakesTheSameEditsInAnyOrderOfCubes)
   ExpectSame(Edited(start, threads), forward);
 }
 
-TEST(InterfaceMotion, BringsVerticesToWhereFieldsAreTheSame)
+TEST(InterfaceMotion, MovesVerticesToInterfacesOfFields)
 {
   const InterfaceScene scene(ManyCells(28, 7, 3));
   InterfaceMesh mesh = RoughMesh(scene);
@@ -116,9 +117,9 @@ TEST(InterfaceMotion, BringsVerticesToWhereFieldsAreTheSame)
   EXPECT_LT(MeanDifference(mesh, *scene.Fields), 0.35 * before);
 }
 
-TEST(InterfaceMotion, TakesBackWhatWouldIntersect)
+TEST(InterfaceMotion, RestoresIntersectingFaces)
 {
-  // Thin plates: steps much too large for them are tried, with nothing to hold them back.
+  // Thin plates with steps that are much too large, without limits of edge lengths and angles.
   const InterfaceScene scene(MakeLabelMap({ 20, 20, 20 }, 3,
     [](int i, int j, int k)
     {
@@ -134,7 +135,7 @@ TEST(InterfaceMotion, TakesBackWhatWouldIntersect)
   }
 }
 
-TEST(InterfaceMotion, TakesBackWhatWouldBeNarrow)
+TEST(InterfaceMotion, RestoresNarrowTriangles)
 {
   constexpr double least = 0.7;
   const InterfaceScene scene(ManyCells(28, 7, 3));
@@ -187,7 +188,7 @@ protected:
 };
 }
 
-TEST_P(Edits, OfEachKindKeepInterfacesSound)
+TEST_P(Edits, PreserveValidity)
 {
   EXPECT_GT(this->RemesherOf(1., 0.8).SplitLongEdges(), 0);
   this->ExpectSoundAndAlike();
@@ -201,9 +202,9 @@ TEST_P(Edits, OfEachKindKeepInterfacesSound)
   this->ExpectSoundAndAlike();
 }
 
-TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
+TEST_P(Edits, PreserveJunctionsOfVeryCoarseMeshes)
 {
-  // Collapses until nothing more may go.
+  // Collapse until no more collapse is possible.
   for (int round = 0; round < 6; ++round)
   {
     this->RemesherOf(8., 30.).CollapseShortEdges();
@@ -214,25 +215,25 @@ TEST_P(Edits, FarTooLargeKeepWhatMeetsWhere)
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Edits, testing::Range(1, 4));
 
-TEST(MismatchedVoxels, AreThoseThatAMovedMeshHasElsewhere)
+TEST(MismatchedVoxels, AreFoundInTranslatedMesh)
 {
-  const LabelMap map = MakeLabelMap({ 32, 16, 16 }, 1,
-    [](int i, int j, int k) { return i / 4 == 2 && j / 4 == 1 && k / 4 == 1; });
+  const LabelMap map = MakeLabelMap(
+    { 32, 16, 16 }, 1, [](int i, int j, int k) { return i / 4 == 2 && j / 4 == 1 && k / 4 == 1; });
   const InterfaceScene scene(map);
-  const auto countAfter = [&](float way, double tolerance, bool isFar)
+  const auto countAfter = [&](float offset, double tolerance, bool isFar)
   {
     InterfaceMesh mesh = StartInterfaces(*scene.Fields, OnThisThread());
-    for (Vector& place : mesh.Position)
+    for (Vector& position : mesh.Position)
     {
-      place += Vector(way, 0.f, 0.f);
+      position += Vector(offset, 0.f, 0.f);
     }
-    const auto found = FindMismatchedVoxels(mesh, map, VoxelBox::Of(map.Size()),
-      map.Spacing, tolerance, OnThisThread());
+    const auto found = FindMismatchedVoxels(
+      mesh, map, VoxelBox::Of(map.Size()), map.Spacing, tolerance, OnThisThread());
     return std::count_if(found.begin(), found.end(),
       [&](const MismatchedVoxel& voxel) { return voxel.IsFar == isFar; });
   };
   EXPECT_EQ(countAfter(0.f, 0., true), 0);
   EXPECT_EQ(countAfter(1.f, 0.4, true), 2 * 16);
   EXPECT_EQ(countAfter(1.f, 0.6, false), 2 * 16);
-  EXPECT_EQ(countAfter(8.f, 0., true), 2 * 64) << "whole bricks, too";
+  EXPECT_EQ(countAfter(8.f, 0., true), 2 * 64) << "also in whole bricks";
 }

@@ -15,7 +15,7 @@ LabelField FieldOf(
   return MakeLabelField(bricks, object, options, executor, VoxelBox::Of(bricks.Size()));
 }
 
-/** Voxel centres at which the field has the sign of the other side, or none. */
+/** Return the number of voxel centres at which the field has the wrong sign or is 0. */
 int CountWrongSigns(const LabelMap& map, int object, const LabelField& field)
 {
   int wrong = 0;
@@ -26,7 +26,7 @@ int CountWrongSigns(const LabelMap& map, int object, const LabelField& field)
 }
 }
 
-TEST(LabelField, HasTheSignOfEachVoxelEvenInNoise)
+TEST(LabelField, HasCorrectSignsInNoise)
 {
   for (const double sigma : { 0., 0.5, 2., 6. })
   {
@@ -36,27 +36,27 @@ TEST(LabelField, HasTheSignOfEachVoxelEvenInNoise)
   }
 }
 
-TEST(LabelField, KeepsWhatIsAVoxelThin)
+TEST(LabelField, PreservesPartsOneVoxelThick)
 {
   const auto sheetAndThread = [](int i, int j, int k)
   { return (i == 10 && j > 3 && j < 18) || (j == 12 && k == 9 && i > 3 && i < 18) ? 1 : 0; };
   const LabelMap map = MakeLabelMap({ 22, 22, 22 }, 1, sheetAndThread);
   const LabelField field = FieldOf(map, 1);
   EXPECT_EQ(CountWrongSigns(map, 1, field), 0);
-  EXPECT_GE(ValueAt(field, 10, 10, 10), 0.35f) << "far enough for triangles about it";
+  EXPECT_GE(ValueAt(field, 10, 10, 10), 0.35f) << "far enough from the triangles";
   EXPECT_GE(ValueAt(field, 5, 12, 9), 0.35f);
 }
 
 namespace
 {
-/** Where between the centres of a voxel inside and one outside the field is 0. */
+/** Return the position of the zero between an inside (0) and an outside voxel centre (1). */
 double CrossingOf(float inside, float outside)
 {
   return inside / (static_cast<double>(inside) - outside);
 }
 }
 
-TEST(LabelFieldOfThinParts, RodsAndVoxelsKeepTheirWidth)
+TEST(LabelFieldOfThinParts, PreservesWidthOfRodsAndVoxels)
 {
   const LabelMap rod = MakeLabelMap({ 32, 24, 24 }, 1,
     [](int i, int j, int k) { return i > 5 && i < 26 && j == 12 && k == 12 ? 1 : 0; });
@@ -74,9 +74,9 @@ TEST(LabelFieldOfThinParts, RodsAndVoxelsKeepTheirWidth)
   }
 }
 
-TEST(LabelFieldWithTolerance, HasBumpsAndPitsWrongByThatButLosesNothingThin)
+TEST(LabelFieldWithTolerance, SmoothsBumpsAndPitsButPreservesThinParts)
 {
-  // A slab with a bump, a pit, and a rod that stands on it.
+  // A slab with a bump, a pit and a rod.
   const LabelMap map = MakeLabelMap({ 40, 40, 24 }, 2,
     [](int i, int j, int k)
     {
@@ -100,7 +100,7 @@ TEST(LabelFieldWithTolerance, HasBumpsAndPitsWrongByThatButLosesNothingThin)
   EXPECT_NEAR(ValueAt(others, 20, 8, 11), -ValueAt(field, 20, 8, 11), 0.02);
 }
 
-TEST(LabelFieldOfThinParts, KeepTheirThicknessWithMuchSmoothing)
+TEST(LabelFieldOfThinParts, PreservesThicknessWithLargeSigma)
 {
   const LabelMap map =
     MakeLabelMap({ 32, 32, 32 }, 1, [](int, int, int k) { return k == 15 || k == 16 ? 1 : 0; });

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The mesh of all labels that vtkLabelsToSurfaces makes, and what blocks have of it.
+// Tests of the interface mesh of vtkLabelsToSurfaces and of its blocks.
 
 #include "LabelImages.h"
 #include "SameOutputs.h"
@@ -13,8 +13,7 @@ using namespace volumic;
 
 namespace
 {
-/** Two blocks side by side, labels 3 and 7, a ball of label 5 in the first, and crumbs of label 7.
- */
+/** Two adjacent blocks, labels 3 and 7, a ball of label 5 in the first, one voxel of label 7. */
 double TouchingBlocks(int i, int j, int k)
 {
   if (i < 3 || i >= 25 || j < 3 || j >= 17 || k < 3 || k >= 17)
@@ -38,7 +37,7 @@ vtkSmartPointer<vtkLabelsToSurfaces> FilterOf(vtkImageData* image)
 
 using Sides = std::array<int, 2>;
 
-/** The labels on either side of a triangle, of those behind the lines. */
+/** Return the labels on both sides of a triangle. */
 Sides SidesOf(vtkPolyData* interfaces, vtkIdType cell)
 {
   Sides sides;
@@ -64,7 +63,7 @@ void ExpectClosedSurface(vtkPolyData* surface)
   EXPECT_GT(EnclosedVolume(surface), 0.);
 }
 
-/** By their ids. */
+/** Expect that points are those of the interface mesh with the same global ids. */
 void ExpectPointsOf(vtkPolyData* surface, vtkPolyData* interfaces)
 {
   vtkDataArray* ids = surface->GetPointData()->GetGlobalIds();
@@ -80,7 +79,7 @@ void ExpectPointsOf(vtkPolyData* surface, vtkPolyData* interfaces)
   }
 }
 
-/** What the filter says while it is updated; empty: it has no error. */
+/** Update the filter and return its error messages. */
 std::string ErrorOf(vtkLabelsToSurfaces* filter)
 {
   MessagesOf errors(filter);
@@ -89,7 +88,7 @@ std::string ErrorOf(vtkLabelsToSurfaces* filter)
 }
 }
 
-TEST(LabelInterfaces, AreThereOnceEach)
+TEST(LabelInterfaces, AreUnique)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -105,7 +104,7 @@ TEST(LabelInterfaces, AreThereOnceEach)
   EXPECT_EQ(interfaces->GetFieldData()->GetAbstractArray("LabelName")->GetNumberOfTuples(), 3);
 }
 
-TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
+TEST(LabelInterfaces, FormTheBlocks)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -121,7 +120,7 @@ TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
     EXPECT_NEAR(FieldOf(surface, "Volume") / FieldOf(surface, "LabelVoxels"), 1., 4e-3);
     triangles += surface->GetNumberOfPolys();
   }
-  vtkIdType twice = 0; // Those between two labels are in two blocks.
+  vtkIdType twice = 0; // triangles between two labels, which are in two blocks
   for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
        ++cell)
   {
@@ -130,12 +129,12 @@ TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
   EXPECT_EQ(triangles, interfaces->GetNumberOfPolys() + twice);
 }
 
-TEST(LabelInterfaces, HaveNoTrianglesWithoutASelectedLabel)
+TEST(LabelInterfaces, ContainOnlySelectedLabels)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->AddLabel(5);
   filter->AddLabel(7);
-  filter->SetBackgroundLabel(-1); // The voxels of 0 are a label then.
+  filter->SetBackgroundLabel(-1); // Label 0 is not background then.
   filter->Update();
   vtkPolyData* interfaces = filter->GetInterfaces();
   EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 5, -1 }, { 7, -1 } }));
@@ -166,7 +165,7 @@ TEST(LabelInterfaces, HaveNoTrianglesWithoutASelectedLabel)
   }
 }
 
-TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
+TEST(LabelInterfaces, OfMergedLabelsHaveJunctionLines)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->AddLabel(3);
@@ -180,7 +179,7 @@ TEST(LabelInterfaces, OfMergedLabelsHaveLinesWhereOthersMeetThem)
   EXPECT_EQ(interfaces->GetNumberOfPolys(), BlockOf(filter, 0)->GetNumberOfPolys());
 }
 
-TEST(LabelInterfaces, AreCoarserWithATolerance)
+TEST(LabelInterfaces, AreCoarserWithTolerance)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -213,19 +212,19 @@ TEST(LabelInterfaces, AreCoarserWithATolerance)
   }
 }
 
-TEST(LabelInterfaces, HaveNoLongerEdgesThanTheMaximum)
+TEST(LabelInterfaces, RespectMaximumEdgeLength)
 {
   const auto image = BlocksImage();
   image->SetSpacing(0.5, 0.5, 0.5);
   const auto filter = FilterOf(image);
   filter->SetTolerance(0.2);
-  filter->SetVoxelTolerance(0.0); // corners of blocks ask for short edges
+  filter->SetVoxelTolerance(0.0); // The corners of blocks then need short edges.
   filter->SetMaximumEdgeLength(1.5);
   filter->Update();
   vtkPolyData* interfaces = filter->GetInterfaces();
   vtkDataArray* sizes = interfaces->GetPointData()->GetArray("EdgeSize");
-  EXPECT_NEAR(sizes->GetRange()[0], 0.5 * 0.8 * std::cbrt(0.2387), 1e-3) << "of a voxel alone";
-  EXPECT_NEAR(sizes->GetRange()[1], 1.5 / 2.2, 1e-3); // The longest are 2.2 of what is wanted.
+  EXPECT_NEAR(sizes->GetRange()[0], 0.5 * 0.8 * std::cbrt(0.2387), 1e-3) << "single voxel";
+  EXPECT_NEAR(sizes->GetRange()[1], 1.5 / 2.2, 1e-3); // InterfaceOptions::LongestInEdge is 2.2.
   double longest = 0.;
   for (vtkIdType cell = interfaces->GetNumberOfLines(); cell < interfaces->GetNumberOfCells();
        ++cell)
@@ -239,7 +238,7 @@ TEST(LabelInterfaces, HaveNoLongerEdgesThanTheMaximum)
   EXPECT_LT(longest, 1.5);
 }
 
-TEST(LabelInterfaces, AreFlatAtTheBorderOfTheImage)
+TEST(LabelInterfaces, AreFlatAtImageBorder)
 {
   const auto filter =
     FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
@@ -276,12 +275,12 @@ TEST(LabelInterfaces, AreFlatAtTheBorderOfTheImage)
   EXPECT_EQ(triangles[5], triangles[6]);
   filter->SetInputData(
     LabelImageOf(12, 10, 9, [](int i, int j, int) { return i + j < 10 ? 3. : 7.; }));
-  EXPECT_TRUE(Has(ErrorOf(filter), "not along x"));
+  EXPECT_TRUE(Has(ErrorOf(filter), "not periodic along x"));
   filter->SetBoxFaces(3);
   EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 3"));
 }
 
-TEST(LabelInterfaces, DoNotDependOnTheOldProperty)
+TEST(LabelInterfaces, IgnoreSharedInterfacesProperty)
 {
   const auto filter = FilterOf(BlocksImage());
   EXPECT_TRUE(filter->GetSharedInterfaces());
@@ -293,11 +292,11 @@ TEST(LabelInterfaces, DoNotDependOnTheOldProperty)
   ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
 }
 
-class StoppedLabelInterfaces : public testing::TestWithParam<double>
+class CancelledLabelInterfaces : public testing::TestWithParam<double>
 {
 };
 
-TEST_P(StoppedLabelInterfaces, AreMarkedAndMadeAnewThen)
+TEST_P(CancelledLabelInterfaces, AreMarkedAndRecomputed)
 {
   const auto filter = FilterOf(BlocksImage());
   ProgressListener listener(filter);
@@ -320,4 +319,4 @@ TEST_P(StoppedLabelInterfaces, AreMarkedAndMadeAnewThen)
   ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
 }
 
-INSTANTIATE_TEST_SUITE_P(At, StoppedLabelInterfaces, testing::Values(0.01, 0.5));
+INSTANTIATE_TEST_SUITE_P(At, CancelledLabelInterfaces, testing::Values(0.01, 0.5));

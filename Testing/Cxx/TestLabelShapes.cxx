@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What vtkLabelsToSurfaces promises, on shapes that are known by formula, of neighbours,
-// by the judge that shares no code with it.
+// Accuracy of vtkLabelsToSurfaces for analytic shapes, measured by an independent implementation.
 #include "JudgedLabels.h"
 
 #include <ostream>
@@ -11,35 +10,35 @@ using namespace volumic::support;
 
 namespace
 {
-/** How well shapes are found; lengths in smallest distances of voxels. */
-struct Promise
+/** Upper bounds of the errors. Lengths are in the smallest voxel spacing. */
+struct AccuracyBounds
 {
   LabelShapeKind Kind;
   int Size;
   double Stretch;
   double Smoothing;
-  double Distance;    ///< mean, of vertices and centroids
-  double Angle;       ///< mean, of normals, degrees
-  double VolumeError; ///< as a share
-  double Wrong;       ///< voxels, as a share of the label's
+  double Distance;    ///< mean distance of vertices and centroids
+  double Angle;       ///< mean angle of normals in degrees
+  double VolumeError; ///< relative
+  double Wrong;       ///< fraction of misclassified voxels
 };
 
-void PrintTo(const Promise& promise, std::ostream* stream)
+void PrintTo(const AccuracyBounds& bounds, std::ostream* stream)
 {
-  *stream << LabelShapeName(promise.Kind) << promise.Size << "x" << promise.Stretch;
+  *stream << LabelShapeName(bounds.Kind) << bounds.Size << "x" << bounds.Stretch;
 }
 
-class LabelPromises : public testing::TestWithParam<Promise>
+class LabelAccuracy : public testing::TestWithParam<AccuracyBounds>
 {
 };
 } // namespace
 
-TEST_P(LabelPromises, AreKept)
+TEST_P(LabelAccuracy, IsWithinBounds)
 {
-  const Promise& promise = GetParam();
-  const DigitisedShapes shapes = Digitise(promise.Kind, promise.Size, promise.Stretch);
+  const AccuracyBounds& bounds = GetParam();
+  const DigitisedShapes shapes = Digitise(bounds.Kind, bounds.Size, bounds.Stretch);
   const Filter filter = FilterOf(ToImage(shapes.Map));
-  filter->SetSmoothing(promise.Smoothing);
+  filter->SetSmoothing(bounds.Smoothing);
   filter->SetVoxelTolerance(0.0);
   for (std::size_t s = 0; s < shapes.Shapes.size(); ++s)
   {
@@ -49,40 +48,40 @@ TEST_P(LabelPromises, AreKept)
     ASSERT_EQ(FieldOf(block, "Label"), shape.Label);
     ExpectGoodTriangles(block);
     const TriangleSurface surface = ToTriangleSurface(block);
-    const WrongVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
+    const MisclassifiedVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
     EXPECT_EQ(FieldOf(block, "LabelVoxels"), voxels.Label);
     EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong()) << "judge and filter differ";
-    EXPECT_LE(voxels.Wrong(), promise.Wrong * voxels.Label)
+    EXPECT_LE(voxels.Wrong(), bounds.Wrong * voxels.Label)
       << voxels.Outside << " outside, " << voxels.Inside << " inside";
     if (shape.Distance)
     {
       const TruthVerdict truth = JudgeTruth(surface, shape);
-      EXPECT_LT(truth.MeanAtVertices, promise.Distance);
-      EXPECT_LT(truth.MeanAtCentroids, promise.Distance);
-      EXPECT_LT(truth.MeanAngle, promise.Angle);
-      EXPECT_NEAR(truth.VolumeError, 0.0, promise.VolumeError);
+      EXPECT_LT(truth.MeanAtVertices, bounds.Distance);
+      EXPECT_LT(truth.MeanAtCentroids, bounds.Distance);
+      EXPECT_LT(truth.MeanAngle, bounds.Angle);
+      EXPECT_NEAR(truth.VolumeError, 0.0, bounds.VolumeError);
     }
   }
 }
 
-// The targets are .1, 3 degrees, .002 and 0; where a bound is more, it is what is reached.
-INSTANTIATE_TEST_SUITE_P(Of, LabelPromises,
-  testing::Values(Promise{ LabelShapeKind::Sphere, 64, 1.0, 2.0, 0.1, 3.0, 0.002, 1e-4 },
-    Promise{ LabelShapeKind::Torus, 64, 1.0, 2.0, 0.1, 3.1, 0.002, 3e-4 },
-    Promise{ LabelShapeKind::Torus, 112, 1.0, 2.0, 0.1, 3.0, 0.002, 1e-4 },
-    Promise{ LabelShapeKind::Gyroid, 64, 1.0, 2.0, 0.1, 4.8, 0.002, 1e-3 },
-    Promise{ LabelShapeKind::TouchingBalls, 64, 1.0, 2.0, 0.1, 3.2, 0.005, 5e-4 },
-    Promise{ LabelShapeKind::CutBall, 64, 1.0, 2.0, 0.1, 4.5, 0.015, 3e-3 },
-    Promise{ LabelShapeKind::Sphere, 64, 3.0, 2.0, 0.1, 3.0, 0.012, 6e-4 },
-    Promise{ LabelShapeKind::Torus, 64, 3.0, 2.0, 0.11, 4.5, 0.02, 1e-3 }),
-  [](const testing::TestParamInfo<Promise>& info)
+// The targets are 0.1, 3 degrees, 0.002 and 0. Larger bounds are the errors that are reached.
+INSTANTIATE_TEST_SUITE_P(Of, LabelAccuracy,
+  testing::Values(AccuracyBounds{ LabelShapeKind::Sphere, 64, 1.0, 2.0, 0.1, 3.0, 0.002, 1e-4 },
+    AccuracyBounds{ LabelShapeKind::Torus, 64, 1.0, 2.0, 0.1, 3.1, 0.002, 3e-4 },
+    AccuracyBounds{ LabelShapeKind::Torus, 112, 1.0, 2.0, 0.1, 3.0, 0.002, 1e-4 },
+    AccuracyBounds{ LabelShapeKind::Gyroid, 64, 1.0, 2.0, 0.1, 4.8, 0.002, 1e-3 },
+    AccuracyBounds{ LabelShapeKind::TouchingBalls, 64, 1.0, 2.0, 0.1, 3.2, 0.005, 5e-4 },
+    AccuracyBounds{ LabelShapeKind::CutBall, 64, 1.0, 2.0, 0.1, 4.5, 0.015, 3e-3 },
+    AccuracyBounds{ LabelShapeKind::Sphere, 64, 3.0, 2.0, 0.1, 3.0, 0.012, 6e-4 },
+    AccuracyBounds{ LabelShapeKind::Torus, 64, 3.0, 2.0, 0.11, 4.5, 0.02, 1e-3 }),
+  [](const testing::TestParamInfo<AccuracyBounds>& info)
   {
     return LabelShapeName(info.param.Kind) + std::to_string(info.param.Size) +
       (info.param.Stretch > 1.0 ? "Stretched" : "");
   });
 
-// A voxel's centre is no truth about the surface that was digitised.
-TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
+// Interpolating all voxel centres reproduces the errors of the digitisation.
+TEST(LabelSurfaces, AreMoreAccurateByDefaultThanInterpolating)
 {
   const DigitisedShapes shapes = Digitise(LabelShapeKind::Sphere, 64);
   const Filter filter = FilterOf(ToImage(shapes.Map));
@@ -92,12 +91,8 @@ TEST(LabelSurfaces, AreNearerToTheTruthByDefaultThanWithEachVoxel)
     return JudgeTruth(ToTriangleSurface(BlockOf(filter, 0)), shapes.Shapes[0]);
   };
   const TruthVerdict byDefault = judged(-1.0);
-  const TruthVerdict strict = judged(0.0);
-  EXPECT_LT(byDefault.MeanAngle, 0.8 * strict.MeanAngle);
-  EXPECT_LT(byDefault.MeanAtVertices, strict.MeanAtVertices);
+  const TruthVerdict interpolating = judged(0.0);
+  EXPECT_LT(byDefault.MeanAngle, 0.8 * interpolating.MeanAngle);
+  EXPECT_LT(byDefault.MeanAtVertices, interpolating.MeanAtVertices);
   EXPECT_LT(std::abs(byDefault.VolumeError), 0.002);
 }
-
-namespace
-{
-} // namespace

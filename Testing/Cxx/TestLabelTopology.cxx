@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The contract of vtkLabelsToSurfaces: the mesh has the topology of the voxels, labels and their
-// parts keep their volumes, and nothing intersects.
+// Guarantees of vtkLabelsToSurfaces: the mesh has the topology of the voxels, the volumes of labels
+// and their parts are preserved, and no triangles intersect.
 
 #include "LabelImages.h"
 #include "SurfaceTestTools.h"
@@ -16,15 +16,15 @@ using namespace volumic;
 
 namespace
 {
-using Choose = std::function<void(vtkLabelsToSurfaces*)>;
+using Configure = std::function<void(vtkLabelsToSurfaces*)>;
 
 struct LabelScene
 {
   std::string Name;
   VoxelScene Voxels;
-  Choose Settings = [](vtkLabelsToSurfaces*) {};
-  double Excess = 1.; ///< by how much volumes are further off than is aimed at
-  int WrongParts = 0; ///< of few voxels, at most
+  Configure Settings = [](vtkLabelsToSurfaces*) {};
+  double Excess = 1.;         ///< factor of the volume error bound
+  int MisclassifiedParts = 0; ///< maximum number of parts with wrong volumes
 };
 
 void PrintTo(const LabelScene& scene, std::ostream* stream)
@@ -35,13 +35,13 @@ void PrintTo(const LabelScene& scene, std::ostream* stream)
 vtkSmartPointer<vtkImageData> ImageOf(const VoxelScene& scene)
 {
   const auto& [nx, ny, nz] = scene.Size;
-  const auto image = LabelImageOf(nx - 2, ny - 2, nz - 2,
-    [&](int i, int j, int k) { return scene.At(i + 1, j + 1, k + 1); });
+  const auto image = LabelImageOf(
+    nx - 2, ny - 2, nz - 2, [&](int i, int j, int k) { return scene.At(i + 1, j + 1, k + 1); });
   image->SetSpacing(scene.Spacing.data());
   return image;
 }
 
-/** All interfaces of a filter that makes all labels, with labels for objects. */
+/** Return all interfaces of a filter without selected labels; objects are labels. */
 InterfaceMesh MeshOf(vtkLabelsToSurfaces* filter)
 {
   vtkPolyData* interfaces = filter->GetInterfaces();
@@ -70,14 +70,15 @@ InterfaceMesh MeshOf(vtkLabelsToSurfaces* filter)
   return mesh;
 }
 
-/** Labels share triangles only where their voxels share faces. */
+/** Expect that labels share triangles only if their voxels share faces. */
 void ExpectContactsOfVoxels(const VoxelScene& scene, const InterfaceMesh& mesh)
 {
   std::set<std::pair<int, int>> contacts;
   ForBox({ 1, 1, 1 }, scene.Size,
     [&](int i, int j, int k)
     {
-      for (const int other : { scene.At(i - 1, j, k), scene.At(i, j - 1, k), scene.At(i, j, k - 1) })
+      for (const int other :
+        { scene.At(i - 1, j, k), scene.At(i, j - 1, k), scene.At(i, j, k - 1) })
       {
         contacts.insert(std::minmax(other, scene.At(i, j, k)));
       }
@@ -90,8 +91,8 @@ void ExpectContactsOfVoxels(const VoxelScene& scene, const InterfaceMesh& mesh)
   }
 }
 
-/** 1 % of 60 voxels or more, 5 % of 8 or more, 25 % of fewer. */
-double MostOff(double voxels)
+/** Return the volume error bound: 1 % for at least 60 voxels, 5 % for at least 8, else 25 %. */
+double VolumeErrorBound(double voxels)
 {
   return voxels >= 60. ? 0.01 : voxels >= 8. ? 0.05 : 0.25;
 }
@@ -103,12 +104,13 @@ void ExpectVolumes(vtkLabelsToSurfaces* filter, const LabelScene& scene)
     vtkPolyData* surface = BlockOf(filter, block);
     SCOPED_TRACE(FieldOf(surface, "Label"));
     const double voxels = FieldOf(surface, "LabelVoxels");
-    EXPECT_NEAR(FieldOf(surface, "VolumeError"), 0., scene.Excess * MostOff(voxels)) << voxels;
-    EXPECT_LE(FieldOf(surface, "WrongParts"), scene.WrongParts);
+    EXPECT_NEAR(FieldOf(surface, "VolumeError"), 0., scene.Excess * VolumeErrorBound(voxels))
+      << voxels;
+    EXPECT_LE(FieldOf(surface, "WrongParts"), scene.MisclassifiedParts);
   }
 }
 
-/** Labels of a box; 0 elsewhere. */
+/** Return a scene with labels in a box and 0 elsewhere. */
 VoxelScene SceneOf(const Voxel& size, const std::array<double, 3>& spacing,
   const std::function<int(int, int, int)>& labelAt, bool isInBox = false)
 {
@@ -153,10 +155,10 @@ std::vector<LabelScene> Inclusions()
   return scenes;
 }
 
-/** Shapes in 2 x 2 x 2 voxels, and boxes of 1 to 32 voxels, each a label alone. */
+/** Shapes in 2 x 2 x 2 voxels, and boxes of 1 to 32 voxels, each with its own label. */
 std::vector<LabelScene> SmallLabels()
 {
-  const std::array<int, 4> left = { 0xff, 0x7f, 0xd7, 0xee }; // voxels by bits: x, y, z
+  const std::array<int, 4> left = { 0xff, 0x7f, 0xd7, 0xee }; // bit x + 2 y + 4 z per voxel
   const auto corners = [=](int i, int j, int k)
   {
     const int x = i % 20 - 9;
@@ -184,7 +186,7 @@ std::vector<LabelScene> SmallLabels()
     { "Thick", SceneOf({ 40, 20, 12 }, { 1., 1., 3. }, thick) } };
 }
 
-/** What is a voxel thick. */
+/** Sheets that are one voxel thick. */
 std::vector<LabelScene> Sheets()
 {
   const auto tilted = [](int i, int j, int k)
@@ -195,15 +197,15 @@ std::vector<LabelScene> Sheets()
   };
   const auto skin = [](int i, int j, int k)
   {
-    const double far = std::hypot(i - 8., j - 7., k - 6.);
-    return far < 4.2 ? 1 : far < 4.7 ? 2 : far > 6.6 && far < 7.6 ? 3 : 0;
+    const double radius = std::hypot(i - 8., j - 7., k - 6.);
+    return radius < 4.2 ? 1 : radius < 4.7 ? 2 : radius > 6.6 && radius < 7.6 ? 3 : 0;
   };
   const auto laminate = [](int i, int, int) { return i % 6; };
   std::vector<LabelScene> scenes = { { "TiltedSheet", SceneOf({ 48, 48, 48 }, Cubes, tilted) },
     { "Skin", SceneOf({ 16, 14, 12 }, Cubes, skin) },
     { "Laminate", SceneOf({ 18, 9, 13 }, Cubes, laminate), {}, 3. },
     { "LaminateFlat", SceneOf({ 18, 9, 13 }, Cubes, laminate, true), Flat } };
-  for (const double spacing : { 1.5, 3., 8., 20. }) // a slice between two labels, and stairs
+  for (const double spacing : { 1.5, 3., 8., 20. }) // stepped labels with one slice between them
   {
     const auto apart = [](int i, int j, int k)
     {
@@ -217,22 +219,22 @@ std::vector<LabelScene> Sheets()
   return scenes;
 }
 
-/** Rods and dots, diagonal ones, too, parts of a label beside its largest one, and noise. */
+/** Rods and dots, also diagonal ones, labels of several parts, and noise. */
 std::vector<LabelScene> ScatteredLabels()
 {
   const auto rods = [](int i, int j, int k)
   {
-    return i == 21 && j >= 6 && j <= 12 && k == 18 - j    ? 1
-      : (i == 15 || i == 16) && j >= 19 && k / 2 == 4      ? 2
-      : i == 23 && j == 1 && k == 12                       ? 3
-      : i == 18 && j >= 6 && j <= 9 && k == j + 5          ? 5
-      : j == 13 && i >= 17 && i <= 22 && k == 31 - i - 1   ? 6
-                                                           : 0;
+    return i == 21 && j >= 6 && j <= 12 && k == 18 - j   ? 1
+      : (i == 15 || i == 16) && j >= 19 && k / 2 == 4    ? 2
+      : i == 23 && j == 1 && k == 12                     ? 3
+      : i == 18 && j >= 6 && j <= 9 && k == j + 5        ? 5
+      : j == 13 && i >= 17 && i <= 22 && k == 31 - i - 1 ? 6
+                                                         : 0;
   };
   const auto parts = [](int i, int j, int k)
   {
-    const Voxel place = { i % 10 - 2, j % 10 - 2, k % 10 - 2 };
-    const auto [x, y, z] = place;
+    const Voxel offset = { i % 10 - 2, j % 10 - 2, k % 10 - 2 };
+    const auto [x, y, z] = offset;
     const int length = std::max({ x, y, z });
     const bool isIn = std::min({ x, y, z }) >= 0 && length < 7;
     const int kind = (k / 10) % 4;
@@ -250,7 +252,7 @@ std::vector<LabelScene> ScatteredLabels()
   };
   return { { "Rods", SceneOf({ 24, 21, 15 }, Cubes, rods),
              [](vtkLabelsToSurfaces* f) { f->SetVoxelTolerance(1.); } },
-    { "Parts", SceneOf({ 40, 40, 40 }, Cubes, parts), {}, 2., 8 }, // those joined by corners
+    { "Parts", SceneOf({ 40, 40, 40 }, Cubes, parts), {}, 2., 8 }, // 8 are joined by corners
     { "Lesions", SceneOf({ 64, 64, 64 }, Cubes, lesions),
       [](vtkLabelsToSurfaces* f) { f->SetSmoothing(1.); } },
     { "Noise", NoiseScene(12, 11, 4), {}, 4. } };
@@ -261,7 +263,7 @@ class LabelTopology : public testing::TestWithParam<LabelScene>
 };
 }
 
-TEST_P(LabelTopology, IsThatOfTheVoxelsWithTheirVolumes)
+TEST_P(LabelTopology, EqualsVoxelTopologyAndVolumes)
 {
   const VoxelScene& scene = GetParam().Voxels;
   const auto filter = LabelSurfacesOf(ImageOf(scene), GetParam().Settings);
@@ -290,9 +292,9 @@ TEST(LabelParts, AreReported)
     EXPECT_EQ(FieldOf(BlockOf(filter, block), "Parts"), block == 0 ? 3. : 2.);
     EXPECT_EQ(FieldOf(BlockOf(filter, block), "WrongParts"), 2.) << "single voxels are too small";
   }
-  vtkAbstractArray* lost = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
-  ASSERT_TRUE(lost);
-  EXPECT_EQ(vtkStringArray::SafeDownCast(lost)->GetValue(0),
+  vtkAbstractArray* missed = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
+  ASSERT_TRUE(missed);
+  EXPECT_EQ(vtkStringArray::SafeDownCast(missed)->GetValue(0),
     "Parts have another volume than their voxels, of Label 1 (2 of 3), Label 2 (2 of 2): too "
     "small, scattered, or too thin for the triangles.");
 }

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The volume that surfaces of labels enclose is that of their voxels, however far apart slices are,
-// however thin the label, and whatever the smoothing; by the judge that shares no code with it.
+// Surfaces of labels enclose the volume of their voxels for any slice spacing, thickness and
+// smoothing. The volumes are measured by an independent implementation.
 #include "ForVoxels.h"
 #include "JudgedLabels.h"
 
@@ -15,7 +15,7 @@ using namespace volumic::support;
 
 namespace
 {
-/** What is inside, by world coordinates about the middle. */
+/** Whether a point is inside, in world coordinates relative to the middle. */
 using Inside = std::function<bool(double x, double y, double z)>;
 
 struct VolumeScene
@@ -34,8 +34,8 @@ void PrintTo(const VolumeScene& scene, std::ostream* stream)
 LabelMap MapOf(const VolumeScene& scene)
 {
   constexpr int margin = 4;
-  // The middle is at no voxel and between no two.
-  constexpr std::array<double, 3> off = { 0.13, 0.27, 0.31 };
+  // The middle is not at a voxel centre and not halfway between two.
+  constexpr std::array<double, 3> offset = { 0.13, 0.27, 0.31 };
   LabelMap map;
   map.Spacing = scene.Spacing;
   std::array<int, 3> half;
@@ -47,8 +47,8 @@ LabelMap MapOf(const VolumeScene& scene)
   volumic::ForBox({ -half[0], -half[1], -half[2] }, { half[0] + 1, half[1] + 1, half[2] + 1 },
     [&](int i, int j, int k)
     {
-      const bool isInside = scene.IsInside((i + off[0]) * map.Spacing[0],
-        (j + off[1]) * map.Spacing[1], (k + off[2]) * map.Spacing[2]);
+      const bool isInside = scene.IsInside((i + offset[0]) * map.Spacing[0],
+        (j + offset[1]) * map.Spacing[1], (k + offset[2]) * map.Spacing[2]);
       map.Values.push_back(isInside ? 1 : 0);
     });
   return map;
@@ -74,7 +74,7 @@ Inside Wall(double radius, double thickness, double halfLength)
   };
 }
 
-/** An arc of 6 units' thickness that rises along x. */
+/** An arc of thickness 6 that rises along x. */
 bool IsInRib(double x, double y, double z)
 {
   return y > 0.0 && std::abs(std::hypot(x, y) - 32.0) < 3.0 && std::abs(z - 0.3 * x) < 5.0;
@@ -85,13 +85,13 @@ class LabelVolumes : public testing::TestWithParam<VolumeScene>
 };
 } // namespace
 
-TEST_P(LabelVolumes, AreThoseOfTheVoxelsWhateverTheSmoothing)
+TEST_P(LabelVolumes, EqualVoxelVolumesForAllSmoothings)
 {
   const LabelMap map = MapOf(this->GetParam());
   struct Settings
   {
     double Smoothing;
-    double VoxelTolerance; ///< -1: a quarter of that
+    double VoxelTolerance; ///< -1: a quarter of Smoothing
   };
   for (const Settings& set : { Settings{ 2.0, -1.0 }, { 1.0, -1.0 }, { 8.0, -1.0 }, { 2.0, 0.0 } })
   {
@@ -102,8 +102,8 @@ TEST_P(LabelVolumes, AreThoseOfTheVoxelsWhateverTheSmoothing)
     vtkPolyData* block = BlockOf(filter);
     const TriangleSurface surface = ToTriangleSurface(block);
     EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
-    const double voxels = FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] *
-      map.Spacing[2];
+    const double voxels =
+      FieldOf(block, "LabelVoxels") * map.Spacing[0] * map.Spacing[1] * map.Spacing[2];
     const double error = JudgeTopology(surface).Volume / voxels - 1.0;
     EXPECT_NEAR(error, 0.0, 0.03);
     EXPECT_NEAR(FieldOf(block, "VolumeError"), error, 1e-3);

@@ -45,19 +45,19 @@ TEST(LabelsToSurfaces, GivesEachLabelAClosedSmoothSurface)
 
 TEST(LabelsToSurfaces, TakesIntegersOfAnyTypeAsPointsOrCells)
 {
-  const auto wanted = LabelSurfacesOf(BallsImage());
+  const auto requested = LabelSurfacesOf(BallsImage());
   for (const int type : { VTK_UNSIGNED_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_SHORT, VTK_INT,
          VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE, VTK_CHAR })
   {
     SCOPED_TRACE(type);
-    ExpectSameBlocks(LabelSurfacesOf(BallsImage(type))->GetOutput(), wanted->GetOutput());
+    ExpectSameBlocks(LabelSurfacesOf(BallsImage(type))->GetOutput(), requested->GetOutput());
   }
   const auto points = BallsImage();
   vtkNew<vtkImageData> cells;
   cells->SetDimensions(35, 29, 29);
   cells->SetOrigin(-0.5, -0.5, -0.5);
   cells->GetCellData()->SetScalars(points->GetPointData()->GetScalars());
-  ExpectSameBlocks(LabelSurfacesOf(cells)->GetOutput(), wanted->GetOutput());
+  ExpectSameBlocks(LabelSurfacesOf(cells)->GetOutput(), requested->GetOutput());
 }
 
 TEST(LabelsToSurfaces, TakesRealNumbersThatAreIntegersWithAWarning)
@@ -90,7 +90,7 @@ TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
     filter->SetInputData(image);
     const MessagesOf warnings(filter, vtkCommand::WarningEvent);
     filter->Update();
-    EXPECT_TRUE(warnings.Has("'Labels' has 1 label that 32 bits don't hold"));
+    EXPECT_TRUE(warnings.Has("'Labels' has 1 label outside the range of int"));
     EXPECT_TRUE(warnings.Has("4294967295 is 8."));
     ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 7", "4294967295" }));
     EXPECT_EQ(FieldOf(BlockOf(filter, 1), "Label"), 8.0);
@@ -211,8 +211,9 @@ TEST(LabelsToSurfaces, MergesLabelsToOneSurface)
 TEST(LabelsToSurfaces, LabelsOfMergedCellsAreOfTheNearestVoxels)
 {
   const auto image = LabelImageOf(21, 13, 13,
-    [](int i, int j, int k)
-    { return std::hypot(i - 10., j - 6., k - 6.) > 5. ? 0 : i > 10 ? 7 : 3; });
+    [](int i, int j, int k) {
+      return std::hypot(i - 10., j - 6., k - 6.) > 5. ? 0 : i > 10 ? 7 : 3;
+    });
   image->SetSpacing(3., 0.5, 1.);
   const auto filter = LabelSurfacesOf(image, [](vtkLabelsToSurfaces* f) { f->MergeOn(); });
   vtkPolyData* surface = BlockOf(filter, 0);

@@ -37,7 +37,7 @@ protected:
   static vtkSmartPointer<vtkImageData> Balls() { return LabelImageOf(34, 28, 28, TwoBalls); }
 
   /** What the field data of all surfaces tell of those that are lost. */
-  std::string LostLabels()
+  std::string MissedLabels()
   {
     auto* told = vtkStringArray::SafeDownCast(
       this->Filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels"));
@@ -64,16 +64,21 @@ TEST_F(LabelsToSurfacesErrors, LabelsThatAreNotThereAreNamedWithThoseThatAre)
 TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
 {
   const auto map = [](int slices, const std::function<double(int)>& at, int type = VTK_SHORT)
-  { return LabelImageOf(9, 9, slices, [&](int i, int, int) { return at(i); }, type); };
+  {
+    return LabelImageOf(
+      9, 9, slices, [&](int i, int, int) { return at(i); }, type);
+  };
   vtkNew<vtkImageData> colours;
   colours->SetDimensions(9, 9, 9);
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
   const std::vector<std::pair<vtkSmartPointer<vtkImageData>, std::vector<std::string>>> cases = {
-    { map(9, [](int) { return 0.; }), { "Input port 0", "no label but Background Label, 0" } },
-    { map(9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
+    { map(9, [](int) { return 0.; }), { "Input port 0", "no label except Background Label, 0" } },
+    { map(
+        9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
       { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
-    { map(9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
-      { "no label but Background Label, 0" } },
+    { map(
+        9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
+      { "no label except Background Label, 0" } },
     { map(1, [](int i) { return std::floor(i / 4.); }),
       { "Input port 0", "9 x 9 x 1", "at least 2" } },
     { colours.Get(), { "Input port 0", "components" } },
@@ -87,15 +92,14 @@ TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
 
 TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
 {
-  this->Filter->SetInputData(
-    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
-  this->ExpectError({ "4913 different values", "4096", "no label map", "Volume to Surface" });
-  this->Filter->SetInputData(
-    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return 1e10 + i + 17 * (j + 17 * k); },
-      VTK_LONG_LONG));
-  this->ExpectError({ "more than 4096 different values that 32 bits don't hold", "10000000000" });
-  this->Filter->SetInputData(
-    LabelImageOf(17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
+  this->Filter->SetInputData(LabelImageOf(
+    17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
+  this->ExpectError({ "4913 different values", "4096", "not a label map", "Volume to Surface" });
+  this->Filter->SetInputData(LabelImageOf(
+    17, 17, 17, [](int i, int j, int k) { return 1e10 + i + 17 * (j + 17 * k); }, VTK_LONG_LONG));
+  this->ExpectError({ "more than 4096 different values outside the range of int", "10000000000" });
+  this->Filter->SetInputData(LabelImageOf(
+    17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
   // Some of them can be chosen.
   this->Filter->AddLabel(100);
   this->Filter->SetTimeLimit(1e-9); // not to mesh the others
@@ -118,14 +122,13 @@ TEST_F(LabelsToSurfacesErrors, AMapThatLooksLikeAScanIsReportedBeforeItIsMeshed)
     EXPECT_TRUE(warnings.Get().empty() || isFirst);
     return warnings.Get();
   };
-  const std::string noisy = warningOf([](int i, int j, int k)
-    { return (7919 * (i + 28 * (j + 28 * k))) % 301; });
+  const std::string noisy =
+    warningOf([](int i, int j, int k) { return (7919 * (i + 28 * (j + 28 * k))) % 301; });
   EXPECT_TRUE(Has(noisy, "'Labels' has 300 labels"));
   EXPECT_TRUE(Has(noisy, "looks like a scan"));
   EXPECT_TRUE(Has(noisy, "--iso"));
-  EXPECT_EQ(warningOf([](int i, int j, int k)
-              { return (7919 * (i + 28 * (j + 28 * k))) % 250; }),
-    "")
+  EXPECT_EQ(
+    warningOf([](int i, int j, int k) { return (7919 * (i + 28 * (j + 28 * k))) % 250; }), "")
     << "not many labels";
   EXPECT_EQ(warningOf([](int i, int j, int k) { return i / 4 + 7 * (j / 4 + 7 * (k / 4)); }), "")
     << "blocks of 4 x 4 x 4 voxels";
@@ -136,8 +139,7 @@ TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)
   this->Filter->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "segmentation");
   this->ExpectError({ "Input port 0", "'segmentation'", "'Labels'" });
-  this->Filter->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Labels");
+  this->Filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Labels");
 }
 
 TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
@@ -200,7 +202,7 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
   MessagesOf errors(this->Filter);
   this->Filter->Update();
   EXPECT_TRUE(hasThrown);
-  EXPECT_TRUE(errors.Has("the memory does not suffice for the surfaces")) << errors.Get();
+  EXPECT_TRUE(errors.Has("not enough memory for the surfaces")) << errors.Get();
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
@@ -221,7 +223,7 @@ TEST_F(LabelsToSurfacesErrors, LabelsLeftOutByKeepComponentsAreNamed)
   EXPECT_EQ(BlockOf(this->Filter, 2)->GetNumberOfCells(), 0);
   EXPECT_EQ(StopReason(BlockOf(this->Filter, 2)), "vanished");
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
-  EXPECT_TRUE(Has(this->LostLabels(), "No surface is left of Label 9"));
-  EXPECT_TRUE(Has(this->LostLabels(), "left out by Keep Components"));
+  EXPECT_TRUE(Has(this->MissedLabels(), "These labels have no surface: Label 9"));
+  EXPECT_TRUE(Has(this->MissedLabels(), "removed by Keep Components"));
   EXPECT_EQ(warnings.Get(), "") << "a speck beside balls is no warning";
 }

@@ -11,7 +11,7 @@ using namespace volumic;
 
 namespace
 {
-const LevelProgress GoOn = [](double) { return true; };
+const ProgressCallback GoOn = [](double) { return true; };
 
 template <typename T>
 std::vector<T> RandomVoxels(std::int64_t n)

@@ -4,7 +4,7 @@
 
 #include "Core/Interfaces/InterfaceFit.h"
 #include "Core/Interfaces/InterfaceSizes.h"
-#include "Core/Interfaces/LineWedges.h"
+#include "Core/Interfaces/JunctionWedges.h"
 #include "Core/Interfaces/TriangleShape.h"
 #include "Core/Mesh/TriangleDistance.h"
 #include "InterfaceTestTools.h"
@@ -22,14 +22,14 @@ bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 
 InterfaceMesh Make(
   InterfaceScene& scene, Executor& executor = OnThisThread(),
-  const std::function<bool(double)>& goOn = [](double) { return true; }, double tolerance = 0.)
+  const std::function<bool(double)>& progress = [](double) { return true; }, double tolerance = 0.)
 {
   InterfaceOptions options;
   options.Tolerance = tolerance;
-  return MakeInterfaces(*scene.Fields, options, executor, goOn);
+  return MakeInterfaces(*scene.Fields, options, executor, progress);
 }
 
-/** Three balls that are pressed together a little. */
+/** Three overlapping balls. */
 LabelMap ThreeBalls()
 {
   return MakeLabelMap({ 40, 32, 40 }, 3,
@@ -62,7 +62,7 @@ float LargestSize(const InterfaceMesh& mesh)
   return *std::max_element(mesh.Size.begin(), mesh.Size.end());
 }
 
-/** By how much sizes grow per length at most, between any two vertices. */
+/** Return the maximum growth of sizes per length between any two vertices. */
 double SteepestSize(const InterfaceMesh& mesh)
 {
   double steepest = 0.;
@@ -70,15 +70,15 @@ double SteepestSize(const InterfaceMesh& mesh)
   {
     for (std::size_t w = 0; w < v; ++w)
     {
-      const double way = Length(mesh.Position[v] - mesh.Position[w]);
-      steepest = std::max(steepest, std::abs(mesh.Size[v] - mesh.Size[w]) / way);
+      const double distance = Length(mesh.Position[v] - mesh.Position[w]);
+      steepest = std::max(steepest, std::abs(mesh.Size[v] - mesh.Size[w]) / distance);
     }
   }
   return steepest;
 }
 }
 
-TEST(MakeInterfaces, KeepsVolumesAndVoxelsWithGoodTriangles)
+TEST(MakeInterfaces, PreservesVolumesWithGoodTriangles)
 {
   InterfaceScene scene(ManyCells(40, 9, 2));
   const InterfaceMesh mesh = Make(scene);
@@ -103,13 +103,13 @@ TEST(MakeInterfaces, KeepsVolumesAndVoxelsWithGoodTriangles)
   }
   EXPECT_GT(sum / static_cast<double>(mesh.Faces.size()), 0.94);
   EXPECT_GT(least, 0.5);
-  EXPECT_LT(static_cast<double>(PushWrongVoxels(mesh, *scene.Fields, 0., OnThisThread())),
+  EXPECT_LT(static_cast<double>(PushMisclassifiedVoxels(mesh, *scene.Fields, 0., OnThisThread())),
     0.03 * static_cast<double>(mesh.Position.size()));
 }
 
-TEST(MakeInterfaces, HasNoSliversAboutNecks)
+TEST(MakeInterfaces, HasNoSliversAtNecks)
 {
-  // Needles, here and there as thin as a voxel.
+  // Needles with necks of about one voxel.
   InterfaceScene scene(MakeLabelMap({ 56, 48, 48 }, 1,
     [](int i, int j, int k)
     {
@@ -156,11 +156,11 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
         least = std::min(least, SquaredGapBetween(face, TriangleOf(mesh, mesh.Faces[g].Vertex)));
       }
     }
-    EXPECT_GT(std::sqrt(least), 0.12); // .09 of an edge
+    EXPECT_GT(std::sqrt(least), 0.12); // 0.09 edge lengths
   }
 }
 
-TEST(MakeInterfaces, TurnsNoPartInsideOut)
+TEST(MakeInterfaces, InvertsNoParts)
 {
   for (unsigned seed = 0; seed < 40; ++seed)
   {
@@ -176,12 +176,12 @@ TEST(MakeInterfaces, TurnsNoPartInsideOut)
   }
 }
 
-/** Lengths of a voxel, the tolerance, and whether the box is periodic. */
-class InterfacesInABox : public testing::TestWithParam<std::array<double, 5>>
+/** Parameters: voxel spacing (3), tolerance, and 1 if the box is periodic. */
+class InterfacesInBox : public testing::TestWithParam<std::array<double, 5>>
 {
 };
 
-TEST_P(InterfacesInABox, AreFlatAtItsSides)
+TEST_P(InterfacesInBox, AreFlatAtBoxSides)
 {
   const std::array<double, 3> spacing = { GetParam()[0], GetParam()[1], GetParam()[2] };
   const bool isPeriodic = GetParam()[4] != 0.;
@@ -210,7 +210,7 @@ TEST_P(InterfacesInABox, AreFlatAtItsSides)
     all += volume;
   }
   EXPECT_NEAR(all, 24. * 21. * 20., 1e-3); // the whole box
-  // Its edges are lines, and there are its corners, where objects are at three sides.
+  // The edges of the box are lines; its corners are vertices on three sides.
   int corners = 0;
   double edges = 0.;
   std::vector<int> about;
@@ -234,12 +234,12 @@ TEST_P(InterfacesInABox, AreFlatAtItsSides)
   EXPECT_NEAR(edges, 4. * (24. * spacing[0] + 21. * spacing[1] + 20. * spacing[2]), 1e-3);
 }
 
-INSTANTIATE_TEST_SUITE_P(OfVoxels, InterfacesInABox,
+INSTANTIATE_TEST_SUITE_P(OfVoxels, InterfacesInBox,
   testing::Values(std::array<double, 5>{ 1., 1., 1., 0., 0. },
     std::array<double, 5>{ 1., 1., 1., 0.3, 0. }, std::array<double, 5>{ 1., 1., 2.5, 0., 0. },
     std::array<double, 5>{ 1., 1., 1., 0., 1. }, std::array<double, 5>{ 1., 1., 1.7, 0.3, 1. }));
 
-TEST(MakeInterfaces, EndAtABoxInNoiseToo)
+TEST(MakeInterfaces, EndAtBoxInNoise)
 {
   for (unsigned seed = 0; seed < 6; ++seed)
   {
@@ -259,23 +259,23 @@ TEST(MakeInterfaces, EndAtABoxInNoiseToo)
   }
 }
 
-class StoppedInterfaces : public testing::TestWithParam<int>
+class CancelledInterfaces : public testing::TestWithParam<int>
 {
 };
 
-TEST_P(StoppedInterfaces, AreSound)
+TEST_P(CancelledInterfaces, AreValid)
 {
   InterfaceScene scene(ManyCells(28, 6, 4));
-  int asked = 0;
+  int calls = 0;
   const InterfaceMesh mesh =
-    Make(scene, OnThisThread(), [&](double) { return ++asked < GetParam(); });
+    Make(scene, OnThisThread(), [&](double) { return ++calls < GetParam(); });
   ExpectSound(mesh);
-  EXPECT_EQ(mesh.Faces.empty(), GetParam() == 1) << "before there are any, or after";
+  EXPECT_EQ(mesh.Faces.empty(), GetParam() == 1) << "empty only if cancelled by the first call";
 }
 
-INSTANTIATE_TEST_SUITE_P(AfterQuestions, StoppedInterfaces, testing::Values(1, 12, 40, 90));
+INSTANTIATE_TEST_SUITE_P(AfterCalls, CancelledInterfaces, testing::Values(1, 12, 40, 90));
 
-TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
+TEST(InterfaceSizes, GrowAtFlatInterfacesWithinGradation)
 {
   InterfaceScene scene(FourBlocks(10));
   InterfaceMesh mesh = Make(scene);
@@ -284,25 +284,26 @@ TEST(InterfaceSizes, GrowWhereInterfacesAreFlatAndKeepTheGradation)
   InterfaceMesh off = mesh;
   for (Vector& p : off.Position)
   {
-    p += Vector(0.2f, 0.2f, 0.2f); // on purpose, as junction lines are, to be straight
+    p += Vector(0.2f, 0.2f, 0.2f); // A translation is not an error, as for straightened lines.
   }
   AdjustSizes(off, *scene.Fields, bounds, OnThisThread());
   EXPECT_EQ(LargestSize(off), 1.8f);
   AdjustSizes(mesh, *scene.Fields, bounds, OnThisThread());
   EXPECT_LT(SteepestSize(mesh), 1.001 * bounds.Gradation);
   EXPECT_EQ(LargestSize(mesh), 1.8f);
-  EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at edges of the cube
+  EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at the edges of the cube
 }
 
 class GradedInterfaces : public testing::TestWithParam<int>
 {
 };
 
-TEST_P(GradedInterfaces, AreSoundWhateverTheMap)
+TEST_P(GradedInterfaces, AreValid)
 {
   const auto seed = static_cast<unsigned>(GetParam());
   InterfaceScene scene(ManyCells(26, 3 + 4 * GetParam(), seed));
-  const InterfaceMesh mesh = Make(scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
+  const InterfaceMesh mesh = Make(
+    scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
   ExpectSound(mesh);
 }
 

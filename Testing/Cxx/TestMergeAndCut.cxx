@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What has come near is merged where the image wants it, nearest first; what is thin is cut.
+// Merges, nearest first, if the image requires them, and cuts.
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/StarMerge.h"
 #include "Core/Mesh/SurfaceFeatures.h"
@@ -11,7 +11,7 @@
 
 using namespace volumic;
 
-TEST(StarMerge, RefusesRimsThatTouch)
+TEST(StarMerge, RejectsTouchingLinks)
 {
   const SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   StarMerge merge;
@@ -26,7 +26,7 @@ namespace
 {
 using Image = std::function<double(double, double, double)>;
 
-/** A surface with what is near what, and an image whose iso-value is 0. */
+/** A surface with its close pairs and an image with iso-value 0. */
 struct Scene : Bench
 {
   TestVolume Volume;
@@ -40,7 +40,7 @@ struct Scene : Bench
       this->Volume = MakeVolume(33, image);
       this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
     }
-    this->Near.Examine(this->State, this->All(), OnThisThread());
+    this->Near.Test(this->State, this->All(), OnThisThread());
   }
 
   int Merges(bool topologyChanges = true)
@@ -55,7 +55,7 @@ struct Scene : Bench
     return this->State.Counts.Merges;
   }
 
-  /** Both sides of the nearest pair. */
+  /** Return the nearest pair in both orders. */
   std::vector<Proximity::ClosePair> NearestPair() const
   {
     Proximity::ClosePair nearest{ -1, -1, 1e9f };
@@ -69,7 +69,7 @@ struct Scene : Bench
   int Chi = this->State.EulerCharacteristic;
 };
 
-/** A ball with a vertex at either end along x. */
+/** Return a ball with a vertex at either end along x. */
 IndexedSurface Ball(double x, double radius, double edge)
 {
   IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, radius, edge);
@@ -81,7 +81,7 @@ IndexedSurface Ball(double x, double radius, double edge)
   return ball;
 }
 
-/** Two balls whose tips face each other about (16, 16, 16), along x. */
+/** Return two balls whose tips face each other about (16, 16, 16), along x. */
 IndexedSurface TwoBalls(double gap = 1.2, double radius = 4, double edge = 1.6)
 {
   IndexedSurface surface = Ball(16 - gap / 2 - radius, radius, edge);
@@ -89,7 +89,7 @@ IndexedSurface TwoBalls(double gap = 1.2, double radius = 4, double edge = 1.6)
   return surface;
 }
 
-/** A wall of a thickness of 1.2 between two spheres. */
+/** Return a wall of thickness 1.2 between two spheres. */
 IndexedSurface Shell()
 {
   IndexedSurface surface = DividedIcosahedron({ 16, 16, 16 }, 7.2, 1.6);
@@ -102,7 +102,7 @@ Image Everywhere(double value)
   return [value](double, double, double) { return value; };
 }
 
-/** `middle` at x = 16, `ends` half a gap away and beyond. */
+/** `middle` at x = 16, `ends` at half a voxel from it and beyond. */
 Image Between(double middle, double ends)
 {
   return [middle, ends](double x, double, double)
@@ -110,31 +110,32 @@ Image Between(double middle, double ends)
 }
 }
 
-TEST(Merging, JoinsTwoBallsWhereTheImageIsObjectBetweenThem)
+TEST(Merging, JoinsBallsAcrossForeground)
 {
-  Scene wanted(TwoBalls(), Everywhere(1));
-  ASSERT_FALSE(wanted.Near.Pairs().empty());
-  EXPECT_EQ(wanted.Merges(), 1);
-  EXPECT_EQ(ComputeFeatures(wanted.State.Mesh.ToIndexed()).Components.size(), 1u);
+  Scene requested(TwoBalls(), Everywhere(1));
+  ASSERT_FALSE(requested.Near.Pairs().empty());
+  EXPECT_EQ(requested.Merges(), 1);
+  EXPECT_EQ(ComputeFeatures(requested.State.Mesh.ToIndexed()).Components.size(), 1u);
   EXPECT_EQ(Scene(TwoBalls(), Everywhere(-1)).Merges(), 0) << "background";
-  EXPECT_EQ(Scene(TwoBalls(), Everywhere(1)).Merges(false), 0) << "the topology must stay";
+  EXPECT_EQ(Scene(TwoBalls(), Everywhere(1)).Merges(false), 0) << "topology changes are off";
 }
 
-TEST(Merging, AsksForTheMiddleAndForBothEnds)
+TEST(Merging, RequiresFieldAtMiddleAndEnds)
 {
-  // At a distance of .6 from the middle the linear image has all but reached its value there.
+  // At a distance of 0.6 from the middle the image has nearly reached `ends`.
   EXPECT_GT(Scene(TwoBalls(), Between(0.5, 1)).Merges(), 0);
   EXPECT_EQ(Scene(TwoBalls(), Between(-0.5, 1)).Merges(), 0) << "a gap in the object";
-  EXPECT_EQ(Scene(TwoBalls(), Between(0.5, -1)).Merges(), 0) << "the surface is still far off";
+  EXPECT_EQ(Scene(TwoBalls(), Between(0.5, -1)).Merges(), 0)
+    << "the surface is far from the isosurface";
 }
 
-TEST(Merging, BreaksThroughAWallWhereTheImageIsBackground)
+TEST(Merging, OpensWallAcrossBackground)
 {
   EXPECT_GT(Scene(Shell(), Everywhere(-1)).Merges(), 0);
   EXPECT_EQ(Scene(Shell(), Everywhere(1)).Merges(), 0);
 }
 
-TEST(Merging, NeedsNormalsThatFaceEachOther)
+TEST(Merging, RequiresFacingNormals)
 {
   const auto with = [](const Vector& normal, const Vector& other, double value)
   {
@@ -149,15 +150,15 @@ TEST(Merging, NeedsNormalsThatFaceEachOther)
   const Vector left(-1, 0, 0);
   const Vector up(0, 1, 0);
   EXPECT_EQ(with(right, left, 1), 1);
-  EXPECT_EQ(with(right, right, 1), 0) << "one behind the other";
+  EXPECT_EQ(with(right, right, 1), 0) << "equal directions";
   EXPECT_EQ(with(right, right, -1), 0);
-  EXPECT_EQ(with(up, -up, 1), 0) << "passing by";
+  EXPECT_EQ(with(up, -up, 1), 0) << "perpendicular to the gap";
   EXPECT_EQ(with(up, -up, -1), 0);
   EXPECT_EQ(with(Normalized(up + right * 0.5f), Normalized(up - right * 0.5f), 1), 0)
     << "two sides of a groove";
 }
 
-TEST(Merging, WithoutAnImageJoinsWhatApproaches)
+TEST(Merging, WithoutImageJoinsApproachingVertices)
 {
   for (const float speed : { 0.1f, -0.1f })
   {
@@ -170,9 +171,9 @@ TEST(Merging, WithoutAnImageJoinsWhatApproaches)
   }
 }
 
-TEST(Merging, LeavesNoEdgeThatIsTooLong)
+TEST(Merging, LeavesNoLongEdges)
 {
-  // Rims far behind the tips: bridge edges of over 2.5 delta.
+  // Links far behind the tips: bridge edges over 2.5 delta.
   Scene scene(TwoBalls(1.4, 3.4, 2.1), Everywhere(1));
   ASSERT_LE(scene.Longest(), 2.5f);
   EXPECT_EQ(scene.Merges(), 1);
@@ -182,7 +183,7 @@ TEST(Merging, LeavesNoEdgeThatIsTooLong)
 
 namespace
 {
-/** Across an edge of a sphere two vertices are raised, and lean over to each other. */
+/** Raise two vertices on both sides of an edge of a sphere and move them towards each other. */
 int FlipsOfAFold(double value, bool raised)
 {
   Scene scene(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), Everywhere(value));
@@ -204,15 +205,15 @@ int FlipsOfAFold(double value, bool raised)
 }
 }
 
-TEST(Merging, ClosesAFoldByAFlipWhereTheImageWantsIt)
+TEST(Merging, FlipClosesFoldIfImageRequires)
 {
   EXPECT_EQ(FlipsOfAFold(1, true), 1) << "a groove in the object is filled";
-  EXPECT_EQ(FlipsOfAFold(-1, true), 0) << "not one in the background";
+  EXPECT_EQ(FlipsOfAFold(-1, true), 0) << "not in the background";
   EXPECT_EQ(FlipsOfAFold(-1, false), 1) << "a ridge in the background is cut off";
   EXPECT_EQ(FlipsOfAFold(1, false), 0);
 }
 
-TEST(CycleCut, RefusesAFace)
+TEST(CycleCut, RejectsFace)
 {
   const SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   const int b = mesh.Rings[5].Item[0];

@@ -15,10 +15,9 @@ namespace
   EXPECT_EQ((mesh).CountEulerCharacteristic(), chi)
 }
 
-TEST(SurfaceMesh, AppendsTheSameOnThreads)
+TEST(SurfaceMesh, AppendIsIndependentOfThreads)
 {
-  // More triangles than one thread takes at a time, in an order in which those of a vertex are far
-  // from each other.
+  // More triangles than one task processes, with those of a vertex far apart in the list.
   IndexedSurface surface = MakeSphere({ 0, 0, 0 }, 20, 0.5).ToIndexed();
   const std::size_t n = surface.Triangles.size();
   ASSERT_GT(n, 40000u);
@@ -49,9 +48,9 @@ TEST(SurfaceMesh, AppendsTheSameOnThreads)
   }
 }
 
-TEST(SurfaceMesh, IsListedAndOrderedTheSameOnThreads)
+TEST(SurfaceMesh, ListingAndOrderAreIndependentOfThreads)
 {
-  // More vertices than threads look at at a time, and many places without one before them.
+  // More vertices than one task processes, after many free slots.
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 0.5);
   const int removed = mesh.Size();
   mesh.Append(DividedIcosahedron({ 3, -40, 2 }, 20, 0.4));
@@ -78,13 +77,13 @@ TEST(SurfaceMesh, IsListedAndOrderedTheSameOnThreads)
   expectSame(mesh.ToIndexed(), other.ToIndexed());
 }
 
-TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
+TEST(SurfaceMesh, DetectsVerticesFarApart)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
   const int other = mesh.Append(Icosahedron({ 20, 0, 0 }, 3));
   for (const int from : { 0, 33, 100 })
   {
-    // Edges to all others, ring by ring.
+    // Distances to all others in edges, by breadth-first search.
     std::vector<int> edges(mesh.Size(), -1);
     std::vector<int> list(1, from);
     edges[from] = 0;
@@ -110,7 +109,7 @@ TEST(SurfaceMesh, KnowsWhoIsFarAlongTheSurface)
   }
 }
 
-TEST(SurfaceMesh, HasRoomBetweenItsVertices)
+TEST(SurfaceMesh, SupportsFreeSlots)
 {
   SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
   const int size = mesh.Size();
@@ -124,11 +123,11 @@ TEST(SurfaceMesh, HasRoomBetweenItsVertices)
   EXPECT_FALSE(mesh.IsAlive(4) || mesh.IsAlive(5));
   EXPECT_EQ(SquaredDistance(mesh.Position[6], fifth), 0.f);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  VertexRoom room = { 4, 6 };
-  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &room), 4);
-  EXPECT_TRUE(room.Has(1));
-  EXPECT_FALSE(room.Has(2));
-  mesh.Count(room);
+  VertexSlots slots = { 4, 6 };
+  EXPECT_EQ(EdgeSplit({ 0, mesh.Rings[0].Item[0] }).Apply(mesh, Vector(0, 0, 7), &slots), 4);
+  EXPECT_TRUE(slots.Has(1));
+  EXPECT_FALSE(slots.Has(2));
+  mesh.Count(slots);
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   mesh.Reorder(SpaceFillingOrder(mesh, 1.));
@@ -136,16 +135,16 @@ TEST(SurfaceMesh, HasRoomBetweenItsVertices)
   EXPECT_EQ(mesh.NumberOfVertices(), size + 1);
 }
 
-TEST(SurfaceMeshInvalid, RefusesWhatIsNoSurface)
+TEST(SurfaceMeshInvalid, RejectsInvalidSurfaces)
 {
   const IndexedSurface once = Icosahedron({ 0, 0, 0 }, 1);
   IndexedSurface open = once;
   open.Triangles.pop_back();
   IndexedSurface twisted = once;
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  IndexedSurface twice = once; // Every fan closes and begins anew.
+  IndexedSurface twice = once; // Every fan closes twice.
   twice.Triangles.insert(twice.Triangles.end(), once.Triangles.begin(), once.Triangles.end());
-  // Two icosahedra with one point in common, where two fans touch.
+  // Two icosahedra with one point in common.
   IndexedSurface pinched = once;
   const IndexedSurface other = Icosahedron({ 5, 0, 0 }, 1);
   pinched.Points.insert(pinched.Points.end(), other.Points.begin() + 1, other.Points.end());
@@ -165,7 +164,7 @@ TEST(SurfaceMeshInvalid, RefusesWhatIsNoSurface)
 
 namespace
 {
-/** With `sides` neighbours at either tip, 0 and 1; the rest in order about them. */
+/** Return a double cone: tips 0 and 1 with `sides` neighbours each, then the others in order. */
 SurfaceMesh DoubleCone(int sides)
 {
   SurfaceMesh mesh;
@@ -174,22 +173,22 @@ SurfaceMesh DoubleCone(int sides)
 }
 }
 
-TEST(EdgeFlip, IsIllegalWhereARingIsFull)
+TEST(EdgeFlip, IsIllegalForFullRing)
 {
-  // A flip of an edge of the belt would join the tips. Seen from either side.
+  // A flip of an edge of the belt would join the tips. Test both directions.
   for (const int u : { 4, 5 })
   {
     EXPECT_TRUE(EdgeFlip::Of(DoubleCone(14), u, 9 - u).IsLegal(DoubleCone(14)));
     EXPECT_FALSE(EdgeFlip::Of(DoubleCone(15), u, 9 - u).IsLegal(DoubleCone(15)));
   }
-  // One full ring is enough.
+  // One full ring suffices.
   SurfaceMesh mesh = DoubleCone(15);
   mesh.Rings[1].Count = 14;
   EXPECT_FALSE(EdgeFlip::Of(mesh, 4, 5).IsLegal(mesh));
   EXPECT_FALSE(EdgeFlip::Of(mesh, 5, 4).IsLegal(mesh));
 }
 
-TEST(EdgeSplit, IsIllegalWhereARingIsFull)
+TEST(EdgeSplit, IsIllegalForFullRing)
 {
   EXPECT_TRUE((EdgeSplit{ 4, 5 }).IsLegal(DoubleCone(14)));
   SurfaceMesh mesh = DoubleCone(15);
@@ -200,7 +199,7 @@ TEST(EdgeSplit, IsIllegalWhereARingIsFull)
 
 TEST(EdgeCollapse, IsBlockedByAThirdCommonNeighbour)
 {
-  // Two tetrahedra on a common triangle: 0, 1, 2 are pairwise neighbours but bound no face.
+  // Two tetrahedra with a common triangle: 0, 1, 2 are pairwise neighbours but not a face.
   SurfaceMesh mesh;
   mesh.Append({ { { 1, 0, 0 }, { -1, 1, 0 }, { -1, -1, 0 }, { 0, 0, 1 }, { 0, 0, -1 } },
     { { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 }, { 1, 0, 4 }, { 2, 1, 4 }, { 0, 2, 4 } } });

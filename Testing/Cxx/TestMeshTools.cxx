@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of meshes: rows through triangles.
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "CoreTestTools.h"
@@ -38,7 +37,7 @@ TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
     EXPECT_EQ(crossings[0].Winding + crossings[1].Winding, 0);
     EXPECT_NEAR(crossings[0].X + crossings[1].X, 0, 1e-12);
   }
-  // The corners at the sides are either passed by, or entered and left at once.
+  // Corners at the sides are missed, or entered and left at the same x.
   for (const Point& p : std::vector<Point>{ { 0, 4, 0 }, { 0, -4, 0 }, { 0, 0, 4 }, { 0, 0, -4 },
          { 0, 2, 2 }, { 0, -2, 2 }, { 0, 2, -2 }, { 0, -2, -2 } })
   {
@@ -52,7 +51,7 @@ TEST(RowCrossing, CountsOnceAtEdgesAndCorners)
   }
 }
 
-TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
+TEST(RowGrid, FindsCrossingsOfAllRows)
 {
   const RowGrid rows = { { 0, -2, 3 }, { 0, 9, 17 }, { 0., 0.65, 0.15 }, 0.7 };
   std::uint32_t random = 1;
@@ -69,36 +68,36 @@ TEST(RowGrid, FindsTheCrossingsOfAllItsRows)
     {
       p = { next(9.), next(10.), next(16.) };
     }
-    if (n % 3 == 0) // a sliver
+    if (n % 3 == 0) // A sliver.
     {
       t[2] = { t[1][0] + 0.01, t[1][1] + 0.03, t[1][2] };
     }
     std::vector<RowGrid::Crossing> found;
     rows.AddCrossings(t, found);
     std::sort(found.begin(), found.end());
-    auto place = found.begin();
+    auto crossing = found.begin();
     for (std::int64_t k = rows.First[2]; k < rows.End[2]; ++k)
     {
       for (std::int64_t j = rows.First[1]; j < rows.End[1]; ++j)
       {
-        const RowCrossing wanted =
+        const RowCrossing requested =
           RowCrossing::Of(t[0], t[1], t[2], rows.Coordinate(1, j), rows.Coordinate(2, k));
-        if (wanted.Winding != 0)
+        if (requested.Winding != 0)
         {
-          ASSERT_NE(place, found.end());
-          EXPECT_EQ(place->Row, rows.RowOf(j, k));
-          EXPECT_EQ(place->Where.Winding, wanted.Winding);
-          EXPECT_EQ((place++)->Where.X, wanted.X);
+          ASSERT_NE(crossing, found.end());
+          EXPECT_EQ(crossing->Row, rows.RowOf(j, k));
+          EXPECT_EQ(crossing->Where.Winding, requested.Winding);
+          EXPECT_EQ((crossing++)->Where.X, requested.X);
         }
       }
     }
-    EXPECT_EQ(place, found.end());
+    EXPECT_EQ(crossing, found.end());
     all += found.size();
   }
   EXPECT_GT(all, 1000u);
 }
 
-TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
+TEST(EnclosingComponents, ExcludeOwnComponent)
 {
   std::vector<IndexedSurface> nested;
   for (const double size : { 4., 3., 2. })
@@ -117,13 +116,12 @@ TEST(ComponentsAbout, AreThoseThatEncloseAPlaceButItsOwn)
       }
     }
   };
-  const std::vector<Point> places = { { 3.5, 0.1, 0.1 }, { 0, 0, 0 }, { -2.5, 0.1, 0 },
+  const std::vector<Point> points = { { 3.5, 0.1, 0.1 }, { 0, 0, 0 }, { -2.5, 0.1, 0 },
     { -9, 0.1, 0.1 }, { 0, 5, 0 } };
   using Lists = std::vector<std::vector<int>>;
   Executor threads(3);
-  EXPECT_EQ(ComponentsAbout(places, {}, nested.size(), facesOf, threads),
+  EXPECT_EQ(EnclosingComponents(points, {}, nested.size(), facesOf, threads),
     (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
-  EXPECT_EQ(ComponentsAbout(places, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
+  EXPECT_EQ(EnclosingComponents(points, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
 }
-

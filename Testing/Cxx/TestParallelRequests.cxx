@@ -249,9 +249,9 @@ TEST_F(ParallelRequests, AreRefusedWhereTheSourceGivesTheFirstProcessAPart)
     SCOPED_TRACE(filter->GetClassName());
     const MessagesOf errors(filter);
     filter->UpdatePiece(0, 2, 0);
-    EXPECT_TRUE(Has(errors.Get(), "Input port 0: the source gives only 24 x 24 x 13 of the image's "
+    EXPECT_TRUE(Has(errors.Get(), "Input port 0: the source provides only 24 x 24 x 13 of the image's "
                                   "24 x 24 x 24 voxels"));
-    EXPECT_TRUE(Has(errors.Get(), "Save it as .pvti"));
+    EXPECT_TRUE(Has(errors.Get(), "Save the distributed image as .pvti"));
     EXPECT_EQ(SizeOfOutput(filter), 0);
     filter->UpdatePiece(1, 2, 0);
     EXPECT_EQ(SizeOfOutput(filter), 0);

@@ -41,7 +41,7 @@ inline ::testing::AssertionResult Has(const std::string& text, const std::string
 
 /** What work says as it refuses an argument; nothing where it takes it. */
 template <typename Work>
-std::string RefusalOf(const Work& work)
+std::string ErrorMessageOf(const Work& work)
 {
   try
   {

@@ -6,14 +6,14 @@
 
 using namespace volumic;
 
-TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
+TEST(Proximity, FindsSamePairsAsBruteForce)
 {
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
   const int second = static_cast<int>(surface.Points.size());
   AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
   LiveSurface state(surface);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   std::set<std::pair<int, int>> expected;
   for (int v = 0; v < second; ++v)
   {
@@ -46,7 +46,7 @@ TEST(Proximity, FindsThePairsOfTwoSpheresAsBruteForceDoes)
   EXPECT_EQ(found(), expected);
 }
 
-TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
+TEST(Proximity, DetectsIntersectionsAtAnyDistance)
 {
   for (double distance = 10.; distance < 13.; distance += 0.05)
   {
@@ -54,9 +54,9 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
     AddSurface(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 5.5, 1.7));
     LiveSurface state(surface);
     Proximity proximity;
-    proximity.Examine(state, state.All(), OnThisThread());
+    proximity.Test(state, state.All(), OnThisThread());
     const bool intersects = CountSelfIntersections(surface, 1) > 0;
-    // The tolerance may find a touch where there is none by less than it; never the other way.
+    // The tolerance may report additional intersections, but none is missed.
     if (intersects)
     {
       EXPECT_FALSE(proximity.Intersections().empty()) << "at distance " << distance;
@@ -68,9 +68,9 @@ TEST(Proximity, FindsWhetherTwoBodiesIntersectAtEveryDistance)
   }
 }
 
-TEST(Proximity, ToldRoomIsThere)
+TEST(Proximity, ClearanceIsLowerBound)
 {
-  // However two balls lie: while neither has moved by half of its slack they do not intersect.
+  // While neither ball has moved by half of its clearance they do not intersect.
   int tested = 0;
   for (double distance = 12.2; distance < 13.6; distance += 0.1)
   {
@@ -79,46 +79,46 @@ TEST(Proximity, ToldRoomIsThere)
     AddSurface(surface, DividedIcosahedron({ distance, 0.3, 0.2 }, 6, 1.7));
     LiveSurface state(surface);
     Proximity proximity;
-    proximity.Examine(state, state.All(), OnThisThread());
-    const auto& slack = state.Slack.AsVector();
-    const float room = *std::min_element(slack.begin(), slack.end());
-    if (!proximity.Intersections().empty() || room <= 0.f)
+    proximity.Test(state, state.All(), OnThisThread());
+    const auto& clearance = state.ClearanceAtTest.AsVector();
+    const float least = *std::min_element(clearance.begin(), clearance.end());
+    if (!proximity.Intersections().empty() || least <= 0.f)
     {
       continue;
     }
     ++tested;
     for (std::size_t v = 0; v < surface.Points.size(); ++v)
     {
-      surface.Points[v][0] += v < second ? 0.499 * room : -0.499 * room;
+      surface.Points[v][0] += v < second ? 0.499 * least : -0.499 * least;
     }
     EXPECT_EQ(CountSelfIntersections(surface), 0) << "at distance " << distance;
   }
   EXPECT_GT(tested, 5);
 }
 
-TEST(Proximity, KeepsPairsOfVerticesThatWereNotExaminedAnew)
+TEST(Proximity, KeepsPairsOfUntestedVertices)
 {
   IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
   const int second = static_cast<int>(surface.Points.size());
   AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
   LiveSurface state(surface);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   const std::size_t pairs = proximity.Pairs().size();
   ASSERT_GT(pairs, 3u);
   for (const Proximity::ClosePair& pair : proximity.Pairs())
   {
     EXPECT_EQ(state.NearOthers[pair.V], 1);
     EXPECT_EQ(state.NearOthers[pair.W], 1);
-    EXPECT_NE(pair.V < second, pair.W < second) << "never neighbours along the surface";
+    EXPECT_NE(pair.V < second, pair.W < second) << "pairs must not be neighbours on the surface";
   }
-  proximity.Examine(state, { 0 }, OnThisThread());
+  proximity.Test(state, { 0 }, OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   EXPECT_EQ(proximity.Pairs().size(), pairs);
 }
 
-TEST(NormalCone, IsOpposedToFourOthersAsToEach)
+TEST(NormalCone, BatchTestMatchesSingleTests)
 {
   std::mt19937 random(1);
   const auto next = [&random] { return static_cast<float>(random() >> 8) / (1 << 23) - 1.f; };
@@ -131,7 +131,7 @@ TEST(NormalCone, IsOpposedToFourOthersAsToEach)
   for (int round = 0; round < 1000; ++round)
   {
     const NormalCone n = cone();
-    // The last one is wider than a half space, and opposed to all.
+    // The last cone exceeds a half-space and is opposed to all.
     const NormalCone m[4] = { cone(), cone(), cone(), NormalCone(cone().Axis(), -0.1f) };
     const unsigned bits = OpposedBits(n, m[0], m[1], m[2], m[3]);
     for (int i = 0; i < 4; ++i)
@@ -141,24 +141,24 @@ TEST(NormalCone, IsOpposedToFourOthersAsToEach)
     }
     EXPECT_TRUE(AreOpposed(n, m[3]));
   }
-  EXPECT_GT(opposed, 1200); // Of 4000.
+  EXPECT_GT(opposed, 1200); // Out of 4000.
   EXPECT_LT(opposed, 3500);
 }
 
-TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
+TEST(Proximity, DetectsFoldedStar)
 {
-  // A vertex pushed through the faces on the far side of its own star.
+  // A vertex pushed through the faces on the opposite side of its own star.
   LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
   const int v = 40;
   const Ring& ring = state.Mesh.Rings[v];
   const Vector p = state.Mesh.Position[v];
-  // The neighbour is laid over the centre and beyond the opposite edge of the star.
+  // Move the neighbour over the centre and beyond the opposite edge of the star.
   const Vector q = state.Mesh.Position[ring.Item[0]];
   state.MoveTo(ring.Item[0], p + (p - q) * 0.6f + Normalized(p) * 0.05f);
   state.UpdateShape(state.All(), OnThisThread());
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
-  proximity.Examine(state, state.All(), OnThisThread());
+  proximity.Test(state, state.All(), OnThisThread());
   EXPECT_FALSE(proximity.Intersections().empty());
   for (const Proximity::FacePair& pair : proximity.Intersections())
   {
@@ -166,23 +166,23 @@ TEST(Proximity, FindsAStarThatIsFoldedOntoItself)
     {
       for (int corner : face)
       {
-        EXPECT_EQ(state.Slack[corner], 0) << "no room";
+        EXPECT_EQ(state.ClearanceAtTest[corner], 0) << "no clearance";
       }
     }
   }
 }
 
-TEST(Proximity, FindsLargeFacesFromTheSmallOnesThatTheyCross)
+TEST(Proximity, DetectsLargeFacesFromSmallOnes)
 {
-  // A small ball that a face of a large one cuts, whose corners are far from it.
+  // A small ball cut by a face of a large one, whose corners are far away.
   const IndexedSurface large = DividedIcosahedron({ 0., 0., 0. }, 15., 6.);
   const int larges = static_cast<int>(large.Points.size());
   const Triangle& cut = large.Triangles.front();
   Point middle{};
   for (int axis = 0; axis < 3; ++axis)
   {
-    middle[axis] = (large.Points[cut[0]][axis] + large.Points[cut[1]][axis] +
-                     large.Points[cut[2]][axis]) / 3.;
+    middle[axis] =
+      (large.Points[cut[0]][axis] + large.Points[cut[1]][axis] + large.Points[cut[2]][axis]) / 3.;
   }
   IndexedSurface both = large;
   AddSurface(both, DividedIcosahedron(middle, 1.2, 0.8));

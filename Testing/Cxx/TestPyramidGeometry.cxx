@@ -49,16 +49,16 @@ TEST(PyramidGeometry, RefusesWhatMakesNoPyramid)
     options.MinimumLevelSize = minimum;
     return options;
   };
-  for (const Case& test : { Case{ "Reduction Factor is 1;", with(1.0) },
-         Case{ "Reduction Factor is 2;", with(2.0) }, Case{ "Reduction Factor", with(std::nan("")) },
-         Case{ "", with(1.01) }, Case{ "", with(1.99) },
-         Case{ "at most 7 levels", with(std::sqrt(3.0), 9) }, Case{ "", with(std::sqrt(3.0), 7) },
-         Case{ "Number Of Levels is -1", with(1.5, -1) },
-         Case{ "Minimum Level Size is 0", with(1.5, 0, 0) }, Case{ "empty", {}, { 0, 4, 4 } },
-         Case{ "axis y", {}, { 4, 4, 4 }, { 1, 0, 1 } }, Case{ "", {}, { 4, 1, 4 }, { 1, 0, 1 } } })
+  for (const Case& test :
+    { Case{ "Reduction Factor is 1;", with(1.0) }, Case{ "Reduction Factor is 2;", with(2.0) },
+      Case{ "Reduction Factor", with(std::nan("")) }, Case{ "", with(1.01) },
+      Case{ "", with(1.99) }, Case{ "at most 7 levels", with(std::sqrt(3.0), 9) },
+      Case{ "", with(std::sqrt(3.0), 7) }, Case{ "Number Of Levels is -1", with(1.5, -1) },
+      Case{ "Minimum Level Size is 0", with(1.5, 0, 0) }, Case{ "empty", {}, { 0, 4, 4 } },
+      Case{ "axis y", {}, { 4, 4, 4 }, { 1, 0, 1 } }, Case{ "", {}, { 4, 1, 4 }, { 1, 0, 1 } } })
   {
     const std::string refusal =
-      RefusalOf([&] { PlanPyramid(test.Size, test.Spacing, test.Options); });
+      ErrorMessageOf([&] { PlanPyramid(test.Size, test.Spacing, test.Options); });
     EXPECT_TRUE(Has(refusal, test.Message));
     EXPECT_EQ(refusal.empty(), std::string(test.Message).empty()) << refusal;
   }

@@ -15,15 +15,11 @@ using namespace volumic;
 
 namespace
 {
-/** Picks alive vertices, edges and 3-cycles at random. */
+/** Selects random alive vertices, edges and 3-cycles. */
 class Dice
 {
 public:
-  Dice(const SurfaceMesh& mesh, unsigned seed)
-    : Mesh(mesh)
-    , Engine(seed)
-  {
-  }
+  Dice(const SurfaceMesh& mesh, unsigned seed) : Mesh(mesh), Engine(seed) {}
   int Number(int n) { return static_cast<int>(this->Engine() % static_cast<unsigned>(n)); }
   int Vertex()
   {
@@ -49,13 +45,13 @@ SurfaceMesh RandomMesh(unsigned seed)
   return mesh;
 }
 
-/** One edit of any kind at a random place. @return whether it was done */
+/** Try a random edit. Return whether it was made. */
 bool TryAny(SurfaceEditor& editor, SurfaceState& state, Dice& dice, int step)
 {
   const int v = dice.Vertex();
   const int w = dice.Neighbour(v);
-  const Vector shake(0.01f * (dice.Number(61) - 30), 0.01f * (dice.Number(61) - 30),
-    0.01f * (dice.Number(61) - 30));
+  const Vector shake(
+    0.01f * (dice.Number(61) - 30), 0.01f * (dice.Number(61) - 30), 0.01f * (dice.Number(61) - 30));
   switch (dice.Number(8))
   {
     case 0:
@@ -82,8 +78,8 @@ int EditsOf(const EditCounts& counts)
   return counts.Splits + counts.Collapses + counts.Flips + counts.Cuts;
 }
 
-/** Rounds of the remesher until nothing is left to do; the surface is looked at after each pass. */
-void RemeshUntilItRests(Bench& bench)
+/** Run the remesher until no edit is made. Check the surface after each pass. */
+void RemeshUntilConverged(Bench& bench)
 {
   int before = -1;
   for (int round = 0; before != EditsOf(bench.State.Counts); ++round)
@@ -104,13 +100,13 @@ void RemeshUntilItRests(Bench& bench)
   }
 }
 
-/** The parameter is the gradation of the sizes, in per cent; 0: one delta for all. */
+/** The parameter is the gradation of the sizes in per cent; 0: uniform delta. */
 class RandomVerifiedEdits : public ::testing::TestWithParam<int>
 {
 protected:
   static float Gradation() { return 0.01f * static_cast<float>(GetParam()); }
 
-  /** Sizes from 1 to 2.5 in waves across the surface, nowhere steeper than the gradation. */
+  /** Set sizes that vary from 1 to 2.5 in waves, with the gradation as maximum slope. */
   void Grade(Bench& bench, Dice& dice) const
   {
     if (GetParam() == 0)
@@ -123,19 +119,19 @@ protected:
     const Vector along = Normalized(s.Mesh.Position[dice.Vertex()] - from);
     for (const int v : bench.All())
     {
-      const float way = Dot(s.Mesh.Position[v] - from, along);
-      s.Size[v] = 1 + half + half * std::sin(this->Gradation() / half * way);
+      const float distance = Dot(s.Mesh.Position[v] - from, along);
+      s.Size[v] = 1 + half + half * std::sin(this->Gradation() / half * distance);
     }
     s.Sizing = s.Sizing.Graded(s.Size.AsVector(), 1 + 2 * half, this->Gradation());
     bench.UpdateShape();
   }
 
-  /** Hardly an edge is outside its bounds, and none too long for the delta of either end. */
+  /** Check that few edges violate their bounds, and none is too long for delta of either end. */
   void ExpectLegalEdges(const Bench& bench) const
   {
     const SurfaceState& s = bench.State;
     const float g = this->Gradation();
-    // That of an edge is the mean of both ends', so that length <= 2.5 (delta_u + g length / 2).
+    // delta of an edge is the mean of its ends: length <= 2.5 (delta_u + g length / 2).
     const float longest = 2.5f / (1 - 1.25f * g);
     int edges = 0;
     int outside = 0;
@@ -155,7 +151,7 @@ protected:
 };
 }
 
-TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
+TEST(RandomEdits, PreserveInvariantsAndEulerCharacteristic)
 {
   int done[6] = {};
   for (unsigned seed = 1; seed <= 4; ++seed)
@@ -168,12 +164,12 @@ TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
       const int v = dice.Vertex();
       const int w = dice.Neighbour(v);
       const int kind = dice.Number(6);
-      const auto isDone = [&mesh](auto edit, auto... place)
+      const auto isDone = [&mesh](auto edit, auto... arguments)
       {
         const bool isLegal = edit.IsLegal(mesh);
         if (isLegal)
         {
-          edit.Apply(mesh, place...);
+          edit.Apply(mesh, arguments...);
         }
         return isLegal;
       };
@@ -222,11 +218,11 @@ TEST(RandomEdits, OfTheConnectivityKeepEveryInvariantAndCountChi)
   }
   for (int kind = 0; kind < 6; ++kind)
   {
-    EXPECT_GT(done[kind], 5) << "kind " << kind << " was hardly tried";
+    EXPECT_GT(done[kind], 5) << "kind " << kind << " was tried too rarely";
   }
 }
 
-TEST_P(RandomVerifiedEdits, NeverMakeTheSurfaceIntersectItself)
+TEST_P(RandomVerifiedEdits, NeverCauseSelfIntersections)
 {
   int edits = 0;
   for (unsigned seed = 1; seed <= 3; ++seed)
@@ -249,7 +245,7 @@ TEST_P(RandomVerifiedEdits, NeverMakeTheSurfaceIntersectItself)
   EXPECT_GT(edits, 300);
 }
 
-TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
+TEST_P(RandomVerifiedEdits, RemesherConvergesAfterwards)
 {
   for (unsigned seed = 1; seed <= 3; ++seed)
   {
@@ -258,7 +254,7 @@ TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
     SurfaceState& s = bench.State;
     Dice dice(s.Mesh, seed);
     this->Grade(bench, dice);
-    for (int turn = 0; turn < 2; ++turn) // The second one begins with edges as they are wanted.
+    for (int turn = 0; turn < 2; ++turn) // The second turn begins with legal edges.
     {
       SurfaceEditor editor(s);
       for (int step = 0; step < 200; ++step)
@@ -266,7 +262,7 @@ TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
         const bool isDone = TryAny(editor, s, dice, step);
         ASSERT_TRUE(!isDone || bench.IsSound()) << "step " << step << " of turn " << turn;
       }
-      RemeshUntilItRests(bench);
+      RemeshUntilConverged(bench);
       ASSERT_FALSE(HasFatalFailure());
       this->ExpectLegalEdges(bench);
     }
@@ -275,13 +271,12 @@ TEST_P(RandomVerifiedEdits, AreMendedInFewRoundsAfterWhichTheRemesherRests)
 }
 
 INSTANTIATE_TEST_SUITE_P(WithAGradationOf, RandomVerifiedEdits, ::testing::Values(0, 20, 30),
-  [](const ::testing::TestParamInfo<int>& info)
-  { return std::to_string(info.param) + "Percent"; });
+  [](const ::testing::TestParamInfo<int>& info) { return std::to_string(info.param) + "Percent"; });
 
-TEST(GradedEdits, KeepClearOfTheMiddleOfALargeFaceThoughItsCornersAreFar)
+TEST(GradedEdits, DetectLargeFaceWithDistantCorners)
 {
-  // The largest legal face with a delta of 1 at its middle and a gradation of .3: an edge is 2.5
-  // times the delta of its ends, which are `corner` from the middle.
+  // The largest legal face with a delta of 1 at its centroid and a gradation of 0.3. An edge is 2.5
+  // times delta of its ends, which are `corner` from the centroid.
   const double gradation = 0.3;
   const double corner = 2.5 / (std::sqrt(3.) - 2.5 * gradation);
   const double half = 0.5 * std::sqrt(3.) * corner;
@@ -289,11 +284,11 @@ TEST(GradedEdits, KeepClearOfTheMiddleOfALargeFaceThoughItsCornersAreFar)
   surface.Points = { { corner, 0, 0 }, { -0.5 * corner, half, 0 }, { -0.5 * corner, -half, 0 },
     { 0, 0, -1.4 * corner } };
   surface.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 2, 1, 3 }, { 0, 2, 3 } };
-  IndexedSurface above; // It has a corner over the middle.
+  IndexedSurface above; // It has a corner above the centroid.
   above.Points = { { 0.9, 0, 0.9 }, { -0.9, 0, 0.9 }, { 0, 0.55, 0.9 }, { 0, -0.55, 0.9 },
     { 0, 0, 1.6 }, { 0, 0, 0.2 } };
-  above.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 },
-    { 1, 2, 5 }, { 3, 1, 5 }, { 0, 3, 5 } };
+  above.Triangles = { { 0, 2, 4 }, { 2, 1, 4 }, { 1, 3, 4 }, { 3, 0, 4 }, { 2, 0, 5 }, { 1, 2, 5 },
+    { 3, 1, 5 }, { 0, 3, 5 } };
   AddSurface(surface, above);
   Bench bench(surface);
   SurfaceState& s = bench.State;

@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Walls that are too thin are told of, and held by FinestLevel -1: by the filter's counts and the
-// judge's.
+// Thin walls are reported as remaining contacts and resolved with FinestLevel -1. The counts of the
+// filter and of SurfaceJudge must agree.
 #include "SupportVtkConversions.h"
 #include "SurfaceTestTools.h"
-
 
 using namespace volumic;
 using namespace volumic::support;
 
 namespace
 {
-/** A hollow ball of radius 18, open on one side, with a wall as thick as is said. */
+/** Return a hollow ball of radius 18, open on one side, with the given wall thickness. */
 Scene HollowBall(double wall)
 {
   Scene scene = MakeScene(SceneKind::Sphere);
@@ -63,7 +62,7 @@ protected:
 };
 }
 
-TEST_F(RemainingContacts, AreNoneWhereTheWallIsThickEnough)
+TEST_F(RemainingContacts, NoneForThickWall)
 {
   this->Run(3);
   EXPECT_EQ(FieldOf(this->Filter->GetOutput(), "RemainingContacts"), 0);
@@ -71,19 +70,19 @@ TEST_F(RemainingContacts, AreNoneWhereTheWallIsThickEnough)
   this->ExpectCountsOfTheJudge(this->Filter->GetOutput());
 }
 
-TEST_F(RemainingContacts, TellOfAWallThatIsTooThinAndGoAwayAtAFinerLevel)
+TEST_F(RemainingContacts, ReportThinWallUntilResolvedByFinerLevel)
 {
   this->Run(1); // Less than 2.5/sqrt(3) delta = 1.23.
   vtkPolyData* surface = this->Filter->GetOutput();
   this->ExpectCountsOfTheJudge(surface);
-  const double share =
+  const double fraction =
     FieldOf(surface, "ContactVertices") / static_cast<double>(surface->GetNumberOfPoints());
-  EXPECT_GT(share, 0.2);
+  EXPECT_GT(fraction, 0.2);
   this->Filter->SetFinestLevel(-1);
   this->Filter->Update();
   surface = this->Filter->GetOutput();
   this->ExpectCountsOfTheJudge(surface);
-  EXPECT_LT(FieldOf(surface, "ContactVertices") / surface->GetNumberOfPoints(), 0.2 * share);
+  EXPECT_LT(FieldOf(surface, "ContactVertices") / surface->GetNumberOfPoints(), 0.2 * fraction);
 }
 
 TEST(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
@@ -115,13 +114,13 @@ TEST(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
   EXPECT_LT(verdict.IsoDistance.MeanAtCentroids, 0.6 * before.IsoDistance.MeanAtCentroids);
 }
 
-TEST_F(RemainingContacts, AreCountedOnTheWayToo)
+TEST_F(RemainingContacts, AreCountedInSnapshots)
 {
-  // Snapshots show the surface while it still touches itself.
+  // Snapshots contain the surface before its contacts are resolved.
   this->Filter->SetSnapshotInterval(5);
   this->Run(1);
   vtkMultiBlockDataSet* snapshots = this->Filter->GetSnapshots();
-  double most = 0;
+  double largest = 0;
   for (unsigned int b = 1; b < snapshots->GetNumberOfBlocks(); ++b)
   {
     auto* surface = vtkPolyData::SafeDownCast(snapshots->GetBlock(b));
@@ -129,7 +128,7 @@ TEST_F(RemainingContacts, AreCountedOnTheWayToo)
     {
       this->ExpectCountsOfTheJudge(surface);
     }
-    most = std::max(most, FieldOf(surface, "RemainingContacts"));
+    largest = std::max(largest, FieldOf(surface, "RemainingContacts"));
   }
-  EXPECT_GT(most, 20);
+  EXPECT_GT(largest, 20);
 }

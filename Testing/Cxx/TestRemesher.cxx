@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which edges are split, collapsed and flipped; lengths in delta.
+// Selection of edges for split, collapse and flip. Lengths in delta.
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
 #include "Core/Surface/Remesher.h"
@@ -11,13 +11,13 @@ using namespace volumic;
 
 namespace
 {
-/** A sphere with edges of 1.1 to 1.25. */
+/** Return a sphere with edge lengths from 1.1 to 1.25. */
 IndexedSurface FineSphere()
 {
   return DividedIcosahedron({ 0, 0, 0 }, 10.2, 1.3);
 }
 
-/** Splits an edge at u and flips it away, which leaves a vertex of valence 3. */
+/** Split an edge at u and flip it, which leaves a vertex of valence 3. */
 int SetIntoAFace(SurfaceState& s, int u)
 {
   const int v = s.Mesh.Rings[u].Item[1];
@@ -32,9 +32,9 @@ int SetIntoAFace(SurfaceState& s, int u)
 }
 }
 
-TEST(Remesher, DoesNotSplitIntoNeedles)
+TEST(Remesher, SplitAvoidsNeedles)
 {
-  // A tetrahedron with one edge that is too long; a corner opposite to it is near to its middle.
+  // A tetrahedron with one edge that is too long and a vertex near the midpoint of that edge.
   for (const double height : { 0.01, 0.05 })
   {
     IndexedSurface cap;
@@ -44,11 +44,12 @@ TEST(Remesher, DoesNotSplitIntoNeedles)
     std::vector<int> all = bench.All();
     Remesher(bench.State, nullptr, true).Split(all);
     EXPECT_EQ(bench.State.Counts.Splits, height > 0.02 ? 1 : 0);
-    EXPECT_EQ((bench.State.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02) << "tried again";
+    EXPECT_EQ((bench.State.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02)
+      << "the edge is tested again";
   }
 }
 
-TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)
+TEST(Remesher, RemovesVertexOfValenceThree)
 {
   Bench bench(FineSphere());
   const LargeVector<Vector> before = bench.State.Mesh.Position;
@@ -64,7 +65,7 @@ TEST(Remesher, TakesAwayVerticesOfValenceThreeWithoutMovingOthers)
   }
 }
 
-TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
+TEST(Remesher, CutsAlongThreeCyclesIfTopologyMayChange)
 {
   for (const bool topologyChanges : { true, false })
   {
@@ -74,7 +75,7 @@ TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
     if (topologyChanges)
     {
       EXPECT_GT(bench.State.Counts.Cuts, 0);
-      EXPECT_GE(bench.State.EulerCharacteristic, 2) << "the ring is open";
+      EXPECT_GE(bench.State.EulerCharacteristic, 2) << "the torus is cut";
     }
     else
     {
@@ -85,12 +86,12 @@ TEST(Remesher, CutsThroughATubeOfThreeUnlessTheTopologyMustStay)
   }
 }
 
-TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
+TEST(Remesher, FlipsOnlyNonDelaunayEdges)
 {
   Bench bench(FineSphere());
   bench.State.RemeshFlags.Fill(IsNotDelaunay);
   Remesher(bench.State, nullptr, true).Flip(bench.All());
-  EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are the shorter ones";
+  EXPECT_EQ(bench.State.Counts.Flips, 0) << "all edges are Delaunay";
   const int u = 40;
   const int v = bench.State.Mesh.Rings[u].Item[0];
   EdgeFlip::Of(bench.State.Mesh, u, v).Apply(bench.State.Mesh);
@@ -102,7 +103,7 @@ TEST(Remesher, FlipsWhatIsNotDelaunayAndNothingElse)
   EXPECT_TRUE(bench.IsSound());
 }
 
-TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
+TEST(Remesher, SmoothsStuckVerticesAfterRollbacks)
 {
   for (const int rollBacks : { 0, 2, 5, 6 })
   {
@@ -112,15 +113,15 @@ TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
     bench.State.RollbackCount[40] = static_cast<std::uint8_t>(rollBacks);
     bench.State.Velocity[40] = Vector(1, 0, 0);
     Remesher(bench.State, nullptr, true).Unstick(bench.All());
-    const double way = Length(bench.State.Mesh.Position[40] - before);
+    const double distance = Length(bench.State.Mesh.Position[40] - before);
     if (rollBacks < 6)
     {
-      EXPECT_EQ(way, 0) << rollBacks;
+      EXPECT_EQ(distance, 0) << rollBacks;
       EXPECT_EQ(bench.State.RollbackCount[40], rollBacks);
     }
     else
     {
-      EXPECT_GT(way, 0.01);
+      EXPECT_GT(distance, 0.01);
       EXPECT_EQ(bench.State.RollbackCount[40], 0);
       EXPECT_EQ(Length(bench.State.Velocity[40]), 0);
     }
@@ -128,7 +129,7 @@ TEST(Remesher, SmoothsWhatIsStuckButNotAtOnce)
   }
 }
 
-TEST(Remesher, EditsActivateWhatTheyChange)
+TEST(Remesher, EditsActivateChangedVertices)
 {
   Bench bench(FineSphere());
   const int w = bench.State.Mesh.Rings[40].Item[0];

@@ -9,7 +9,7 @@ using namespace volumic;
 
 namespace
 {
-/** A cube of 12 triangles, turned so that no face is along an axis. */
+/** Return a cube of 12 triangles, rotated so that no face is axis-aligned. */
 IndexedSurface TurnedCube(const Point& centre, double half)
 {
   IndexedSurface cube = Cuboid({ -half, -half, -half }, { half, half, half });
@@ -24,22 +24,22 @@ IndexedSurface TurnedCube(const Point& centre, double half)
   return cube;
 }
 
-/** Triangles that share nothing, of sizes from .01 to 3 in a cube of side 4. */
+/** Return disconnected triangles with sizes from 0.01 to 3 in a cube of side 4. */
 IndexedSurface MixedSoup(int count, unsigned int seed)
 {
   std::mt19937 engine(seed);
-  std::uniform_real_distribution<double> place(0., 4.);
-  std::uniform_real_distribution<double> part(-1., 1.);
+  std::uniform_real_distribution<double> position(0., 4.);
+  std::uniform_real_distribution<double> offset(-1., 1.);
   std::uniform_real_distribution<double> power(-2., 0.5);
   IndexedSurface soup;
   for (int i = 0; i < count; ++i)
   {
-    const Point centre = { place(engine), place(engine), place(engine) };
+    const Point centre = { position(engine), position(engine), position(engine) };
     const double size = std::pow(10., power(engine));
     for (int k = 0; k < 3; ++k)
     {
-      soup.Points.push_back({ centre[0] + size * part(engine), centre[1] + size * part(engine),
-        centre[2] + size * part(engine) });
+      soup.Points.push_back({ centre[0] + size * offset(engine), centre[1] + size * offset(engine),
+        centre[2] + size * offset(engine) });
     }
     soup.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
   }
@@ -60,7 +60,7 @@ MeshTriangle Rounded(const IndexedSurface& surface, int i)
 }
 }
 
-TEST(SelfIntersections, AreThoseOfAllPairs)
+TEST(SelfIntersections, MatchBruteForce)
 {
   for (unsigned int seed : { 1u, 2u, 3u })
   {
@@ -79,11 +79,11 @@ TEST(SelfIntersections, AreThoseOfAllPairs)
   }
 }
 
-TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
+TEST(SelfIntersections, SkipBoxesNotCutByPlane)
 {
-  // The boxes of these triangles hold the whole sphere, their planes pass it by.
+  // The boxes of these triangles contain the sphere, but their planes do not cut it.
   const IndexedSurface sphere = DividedIcosahedron({ 0, 0, 0 }, 1, 0.02);
-  IntersectionWork own;
+  IntersectionCounters own;
   EXPECT_EQ(CountSelfIntersections(sphere, 0, &own), 0);
   IndexedSurface surface;
   constexpr int sheets = 100;
@@ -95,16 +95,17 @@ TEST(SelfIntersections, OfLargeTrianglesAboutSmallOnesAreLookedForWhereTheyPass)
     surface.Triangles.push_back({ 3 * i, 3 * i + 1, 3 * i + 2 });
   }
   AddSurface(surface, sphere);
-  IntersectionWork work;
-  EXPECT_EQ(CountSelfIntersections(surface, 0, &work), 0);
-  EXPECT_LT(work.Pairs, own.Pairs + sheets * static_cast<long long>(sphere.Triangles.size()) / 3);
-  // And a cube that passes the sphere is found.
+  IntersectionCounters counters;
+  EXPECT_EQ(CountSelfIntersections(surface, 0, &counters), 0);
+  EXPECT_LT(
+    counters.Pairs, own.Pairs + sheets * static_cast<long long>(sphere.Triangles.size()) / 3);
+  // A cube that intersects the sphere is detected.
   IndexedSurface crossing = DividedIcosahedron({ 0, 0, 0 }, 1, 0.1);
   AddSurface(crossing, TurnedCube({ 60.3, 48.24, 64.32 }, 100));
   EXPECT_GT(CountSelfIntersections(crossing), 0);
 }
 
-TEST(TriangleTree, MeasuresTheDistanceToTheNearestTriangle)
+TEST(TriangleTree, ComputesDistanceToNearestTriangle)
 {
   const IndexedSurface cube = TurnedCube({ 5, 5, 5 }, 2);
   const TriangleTree tree(cube);

@@ -88,7 +88,7 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
   EXPECT_EQ(warnings.Get(), "");
   ASSERT_TRUE(filter->GetNeedsUpdate());
   filter->Update();
-  EXPECT_TRUE(warnings.Has("Level 0: Keep Components leaves none"));
+  EXPECT_TRUE(warnings.Has("surface of level 0 is empty: Keep Components"));
   EXPECT_TRUE(warnings.Has("has 1 NaN voxel")) << warnings.Get();
 }
 

@@ -3,12 +3,11 @@
 #include "Core/Labels/SmallParts.h"
 #include "LabelTestTools.h"
 
-
 using namespace volumic;
 
 namespace
 {
-/** A block of object 1 of 4 x 4 x 4 in a corner of object 2, two voxels of 1 apart, one of 3. */
+/** A 4 x 4 x 4 block and 2 separate voxels of object 1 in object 2, and one voxel of object 3. */
 LabelMap Parts()
 {
   return MakeLabelMap({ 12, 8, 8 }, 3,
@@ -29,63 +28,64 @@ LabelMap Parts()
 long VoxelsOf(const LabelMap& map, int object)
 {
   long count = 0;
-  map.ForParts(VoxelBox::Of(map.Size()), [&](const VoxelBox& part, LabelMap::Number other)
+  map.ForParts(VoxelBox::Of(map.Size()),
+    [&](const VoxelBox& part, LabelMap::Number other)
     { count += other == object ? static_cast<long>(part.Count()) : 0; });
   return count;
 }
 }
 
-TEST(SmallParts, GoToWhatIsAboutThem)
+TEST(SmallParts, AreReassignedToNeighbours)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 3, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 3, false);
   EXPECT_EQ(map.At(8, 4, 4), 2);
   EXPECT_EQ(map.At(9, 4, 4), 2);
-  EXPECT_EQ(map.At(11, 2, 2), 0); // More faces of it are at the outside than at 2.
+  EXPECT_EQ(map.At(11, 2, 2), 0); // It shares more faces with the background than with object 2.
   EXPECT_EQ(VoxelsOf(map, 1), 64);
   map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 2, false);
-  EXPECT_EQ(map.At(8, 4, 4), 1) << "of the largest size";
+  ReassignSmallParts(map, { 1, 2, 3 }, 2, false);
+  EXPECT_EQ(map.At(8, 4, 4), 1) << "not smaller than the limit";
   EXPECT_EQ(VoxelsOf(map, 3), 0);
   map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 0, true); // All but the largest.
+  ReassignSmallParts(map, { 1, 2, 3 }, 0, true); // all except for the largest
   EXPECT_EQ(VoxelsOf(map, 1), 64);
-  EXPECT_EQ(VoxelsOf(map, 3), 1); // It is the largest of its object.
+  EXPECT_EQ(VoxelsOf(map, 3), 1); // the largest part of its object
 }
 
-TEST(SmallParts, GoToNothingThatGoes)
+TEST(SmallParts, AreNotReassignedToSmallParts)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 1000000, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 1000000, false);
   EXPECT_EQ(VoxelsOf(map, 0), static_cast<long>(VoxelBox::Of(map.Size()).Count()));
-  // Two voxels of 1 in some of 3 in 2: all of it is 2 then.
+  // Two voxels of object 1 in a part of object 3 in object 2: all become object 2.
   map = MakeLabelMap({ 9, 9, 9 }, 3,
     [](int i, int j, int k)
     {
       const bool isNear = std::abs(i - 4) < 2 && std::abs(j - 4) < 2 && std::abs(k - 4) < 2;
       return i == 4 && j == 4 && k > 3 && k < 6 ? 1 : isNear ? 3 : 2;
     });
-  GiveAwaySmallParts(map, { 1, 2, 3 }, 100, false);
+  ReassignSmallParts(map, { 1, 2, 3 }, 100, false);
   EXPECT_EQ(VoxelsOf(map, 2), 729);
 }
 
-TEST(SmallParts, JoinedByACornerAreOne)
+TEST(SmallParts, AreCornerConnected)
 {
-  // Along either diagonal: the first voxel is at one of the ends, or beyond others.
+  // Test both diagonals.
   for (const int sign : { 1, -1 })
   {
     LabelMap map = MakeLabelMap({ 6, 6, 6 }, 1,
       [=](int i, int j, int k)
       { return j == k && j > 0 && j < 5 && i == (sign > 0 ? j : 5 - j) ? 1 : 0; });
-    GiveAwaySmallParts(map, { 1 }, 4, false);
+    ReassignSmallParts(map, { 1 }, 4, false);
     EXPECT_EQ(VoxelsOf(map, 1), 4) << sign;
   }
 }
 
-TEST(SmallParts, OfObjectsThatAreNotSelectedStayAndGetOthers)
+TEST(SmallParts, OfUnselectedObjectsAreKept)
 {
   LabelMap map = Parts();
-  GiveAwaySmallParts(map, { 1 }, 3, true);
+  ReassignSmallParts(map, { 1 }, 3, true);
   EXPECT_EQ(map.At(8, 4, 4), 2);
   EXPECT_EQ(VoxelsOf(map, 3), 1);
   EXPECT_EQ(VoxelsOf(map, 1), 64);
@@ -93,8 +93,8 @@ TEST(SmallParts, OfObjectsThatAreNotSelectedStayAndGetOthers)
 
 namespace
 {
-/** The voxels that are joined with one by others of its object, itself too. */
-std::set<std::array<int, 3>> PartAbout(const LabelMap& map, const std::array<int, 3>& voxel)
+/** Return the voxels of the part that contains a voxel. */
+std::set<std::array<int, 3>> PartAt(const LabelMap& map, const std::array<int, 3>& voxel)
 {
   std::set<std::array<int, 3>> part = { voxel };
   std::vector<std::array<int, 3>> next = { voxel };
@@ -115,16 +115,18 @@ std::set<std::array<int, 3>> PartAbout(const LabelMap& map, const std::array<int
 }
 }
 
-TEST(SmallParts, BecomeObjectsOfTheirOwn)
+TEST(SmallParts, AreSeparatedIntoObjects)
 {
   LabelMap map = MakeLabelMap({ 12, 5, 5 }, 2,
     [](int i, int j, int k)
     {
       const bool isInRow = j == 2 && k == 2;
-      return isInRow && i < 2 ? 1 : isInRow && i > 2 && i < 6 ? 1 : isInRow && i == 7 ? 2
-        : i == 8 && j == 3 && k == 3                         ? 2
-        : i == 11 && j == 0 && k == 4                        ? 1
-                                                             : 0;
+      return isInRow && i < 2         ? 1
+        : isInRow && i > 2 && i < 6   ? 1
+        : isInRow && i == 7           ? 2
+        : i == 8 && j == 3 && k == 3  ? 2
+        : i == 11 && j == 0 && k == 4 ? 1
+                                      : 0;
     });
   SeparateParts(map);
   EXPECT_EQ(map.NumberOfObjects, 4);
@@ -136,23 +138,23 @@ TEST(SmallParts, BecomeObjectsOfTheirOwn)
   EXPECT_EQ(map.At(8, 3, 3), 2) << "joined by a corner";
 }
 
-TEST(SmallParts, OthersStayAsTheyAre)
+TEST(SmallParts, LargePartsAreKept)
 {
   for (unsigned seed = 1; seed < 6; ++seed)
   {
     const LabelMap noise = NoisyLabelMap({ 11, 13, 17 }, 9, seed);
     LabelMap map = noise;
-    GiveAwaySmallParts(map, { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 4, false);
-    int given = 0;
+    ReassignSmallParts(map, { 1, 2, 3, 4, 5, 6, 7, 8, 9 }, 4, false);
+    int reassigned = 0;
     ForVoxels(map.Size(),
       [&](int i, int j, int k)
       {
         const int object = noise.At(i, j, k);
-        const bool stays = object == 0 || PartAbout(noise, { i, j, k }).size() >= 4;
+        const bool isKept = object == 0 || PartAt(noise, { i, j, k }).size() >= 4;
         EXPECT_LE(map.At(i, j, k), 9);
-        EXPECT_TRUE(!stays || map.At(i, j, k) == object) << i << " " << j << " " << k;
-        given += stays ? 0 : 1;
+        EXPECT_TRUE(!isKept || map.At(i, j, k) == object) << i << " " << j << " " << k;
+        reassigned += isKept ? 0 : 1;
       });
-    EXPECT_GT(given, 100);
+    EXPECT_GT(reassigned, 100);
   }
 }

@@ -13,7 +13,7 @@ namespace
 {
 Executor Thread;
 
-/** A row of balls along x, 10 apart: one in each block of side 10. */
+/** Return a row of balls along x with distance 10: one in each block of side 10. */
 SurfaceMesh Balls(int n)
 {
   SurfaceMesh mesh;
@@ -36,31 +36,31 @@ SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
   return frame;
 }
 
-/** Of a block, those that are alive. */
+/** Return the alive vertices of a block. */
 std::vector<int> VerticesOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
 {
-  BlockVisit visit = blocks.Open(block);
+  BlockPass pass = blocks.Open(block);
   std::vector<int> vertices;
-  for (int v = visit.First; v < visit.End(); ++v)
+  for (int v = pass.First; v < pass.End(); ++v)
   {
     if (mesh.IsAlive(v))
     {
       vertices.push_back(v);
     }
   }
-  blocks.Close(std::move(visit));
+  blocks.Close(std::move(pass));
   return vertices;
 }
 
-/** The block that has the vertex at a place; -1: none, -2: several. */
-int BlockWith(SurfaceBlocks& blocks, const SurfaceMesh& mesh, const Vector& place)
+/** Return the block of the vertex at a position; -1: none, -2: several. */
+int BlockWith(SurfaceBlocks& blocks, const SurfaceMesh& mesh, const Vector& position)
 {
   int found = -1;
   for (const int block : blocks.Schedule().Order())
   {
     for (const int v : VerticesOf(blocks, mesh, block))
     {
-      if (SquaredDistance(mesh.Position[v], place) == 0.f)
+      if (SquaredDistance(mesh.Position[v], position) == 0.f)
       {
         found = found == -1 ? block : -2;
       }
@@ -69,14 +69,14 @@ int BlockWith(SurfaceBlocks& blocks, const SurfaceMesh& mesh, const Vector& plac
   return found;
 }
 
-/** Any of its vertices. */
+/** Return any vertex of a block. */
 int VertexOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
 {
   return VerticesOf(blocks, mesh, block).front();
 }
 }
 
-TEST(SurfaceBlocks, HandOverWhatLeavesThemBetweenSweeps)
+TEST(SurfaceBlocks, ReassignStrayVerticesBetweenSweeps)
 {
   LiveSurface state(Balls(4));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
@@ -87,9 +87,10 @@ TEST(SurfaceBlocks, HandOverWhatLeavesThemBetweenSweeps)
   state.MoveTo(vertices[0], near);
   VerticesOf(blocks, state.Mesh, 0);
   blocks.Prepare(Thread);
-  EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 0) << "one that comes and goes is no reason";
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 0)
+    << "a vertex near its block causes no renumbering";
   state.MoveTo(vertices[1], far);
-  EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 0) << "nobody else's in the same sweep";
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 0) << "a vertex keeps its block within a sweep";
   blocks.Prepare(Thread);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 2);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 1);
@@ -97,10 +98,10 @@ TEST(SurfaceBlocks, HandOverWhatLeavesThemBetweenSweeps)
   state.MoveTo(VertexOf(blocks, state.Mesh, 2), beyond);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 2);
   blocks.Prepare(Thread);
-  EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 0) << "what is beyond the first is the first's";
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 0) << "the outermost block is unbounded";
 }
 
-TEST(SurfaceBlocks, KeepWhatIsKnownOfTheirVertices)
+TEST(SurfaceBlocks, ReorderVertexProperties)
 {
   LiveSurface state(Balls(3));
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -129,65 +130,65 @@ TEST(SurfaceBlocks, KeepWhatIsKnownOfTheirVertices)
   EXPECT_EQ(alive, state.Mesh.NumberOfVertices() - 1);
 }
 
-TEST(SurfaceBlocks, OwnTheNewVerticesOfTheirVisits)
+TEST(SurfaceBlocks, OwnNewVerticesOfTheirPasses)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const int before = state.Mesh.NumberOfVertices();
-  BlockVisit visit = blocks.Open(1);
-  visit.Share.Region = visit.Share.Region.Grown(1000.f);
-  SurfaceEditor editor(state, &visit.Share);
-  const int end = visit.End();
-  const int v = visit.First;
+  BlockPass pass = blocks.Open(1);
+  pass.Context.Region = pass.Context.Region.Grown(1000.f);
+  SurfaceEditor editor(state, &pass.Context);
+  const int end = pass.End();
+  const int v = pass.First;
   const Edit split = editor.Split(v, state.Mesh.Rings[v].Item[0]);
   ASSERT_TRUE(split.IsDone);
   EXPECT_EQ(split.Vertex, end);
-  EXPECT_EQ(visit.End(), end + 1);
-  // Nobody takes the place of one that is gone before all are numbered anew.
-  const int old = visit.First + (end - visit.First) / 2;
+  EXPECT_EQ(pass.End(), end + 1);
+  // Slots of removed vertices are not reused before the renumbering.
+  const int old = pass.First + (end - pass.First) / 2;
   const int beside = state.Mesh.Rings[old].Item[0];
   ASSERT_TRUE(editor.Collapse(old, beside, EditTolerance::Loose).IsDone);
   const int kept = state.Mesh.IsAlive(old) ? old : beside;
   EXPECT_EQ(editor.Split(kept, state.Mesh.Rings[kept].Item[0]).Vertex, end + 1);
-  const Vector place = state.Mesh.Position[split.Vertex];
-  blocks.Close(std::move(visit));
+  const Vector position = state.Mesh.Position[split.Vertex];
+  blocks.Close(std::move(pass));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before + 1);
-  EXPECT_EQ(BlockWith(blocks, state.Mesh, place), 1);
+  EXPECT_EQ(BlockWith(blocks, state.Mesh, position), 1);
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(SurfaceBlocks, GetMoreRoomWhereTheyHaveTakenIt)
+TEST(SurfaceBlocks, GetMoreSlotsAfterUse)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const auto takeAll = [&]
   {
-    BlockVisit visit = blocks.Open(1);
-    const int size = visit.Share.Room.End - visit.Share.Room.Next;
-    visit.Share.Room.Next = visit.Share.Room.End; // As if edits had made and removed so many.
-    blocks.Close(std::move(visit));
+    BlockPass pass = blocks.Open(1);
+    const int size = pass.Context.Slots.End - pass.Context.Slots.Next;
+    pass.Context.Slots.Next = pass.Context.Slots.End; // As if edits had used all slots.
+    blocks.Close(std::move(pass));
     return size;
   };
   const int first = takeAll();
   EXPECT_GT(first, 0);
-  BlockVisit visit = blocks.Open(1);
-  SurfaceEditor editor(state, &visit.Share);
-  EXPECT_FALSE(visit.Share.Room.Has(1));
-  EXPECT_FALSE(editor.Split(visit.First, state.Mesh.Rings[visit.First].Item[0])) << "there is none";
-  blocks.Close(std::move(visit));
+  BlockPass pass = blocks.Open(1);
+  SurfaceEditor editor(state, &pass.Context);
+  EXPECT_FALSE(pass.Context.Slots.Has(1));
+  EXPECT_FALSE(editor.Split(pass.First, state.Mesh.Rings[pass.First].Item[0])) << "no free slot";
+  blocks.Close(std::move(pass));
   blocks.Prepare(Thread);
   EXPECT_GT(takeAll(), 0);
   blocks.Prepare(Thread);
-  EXPECT_GT(takeAll(), first) << "more where it was taken";
+  EXPECT_GT(takeAll(), first) << "used slots increase the number of slots";
   EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
 }
 
-TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
+TEST(SurfaceBlocks, RejectEditsOutsideRegion)
 {
   LiveSurface state(Balls(3));
   SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
-  BlockVisit visit = blocks.Open(1);
-  SurfaceEditor editor(state, &visit.Share);
+  BlockPass pass = blocks.Open(1);
+  SurfaceEditor editor(state, &pass.Context);
   const float end = blocks.BoxOf(1).High.X;
   int beyond = 0;
   int within = 0;
@@ -215,10 +216,10 @@ TEST(SurfaceBlocks, AreEditedNoFurtherThanTheirRegion)
   }
   EXPECT_GT(beyond, 10);
   EXPECT_GT(within, 5);
-  blocks.Close(std::move(visit));
+  blocks.Close(std::move(pass));
 }
 
-TEST(SurfaceBlocks, LeaveOutWhatIntersects)
+TEST(SurfaceBlocks, RejectIntersectingSurfaces)
 {
   SurfaceState state;
   state.Sizing = SizingField(1.f);
@@ -227,7 +228,7 @@ TEST(SurfaceBlocks, LeaveOutWhatIntersects)
   state.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
   SurfaceBlocks blocks(state, frame, Thread);
   const int before = state.Mesh.NumberOfVertices();
-  // One through the second ball, one beside both.
+  // One ball intersects the second ball, the other intersects none.
   SurfaceMesh added;
   added.Append(DividedIcosahedron({ 14., 0., 0. }, 3., 1.5));
   const int through = added.NumberOfVertices();
@@ -241,27 +242,27 @@ TEST(SurfaceBlocks, LeaveOutWhatIntersects)
   EXPECT_EQ(state.EulerCharacteristic, 6);
 }
 
-TEST(SurfaceIteration, MovesNothingFarFromTheBlock)
+TEST(SurfaceIteration, MovesOnlyVerticesNearBlock)
 {
   LiveSurface s(Balls(3));
   SurfaceBlocks blocks(s, FrameAbout(s.Mesh, 10.f), Thread);
-  const auto movedIn = [&](BlockVisit& visit, const Vector& place)
+  const auto movedIn = [&](BlockPass& pass, const Vector& position)
   {
-    const std::vector<int> active = SurfaceIteration(s, visit, nullptr, true).ActiveVertices();
+    const std::vector<int> active = SurfaceIteration(s, pass, nullptr, true).ActiveVertices();
     return std::any_of(active.begin(), active.end(),
-      [&](int v) { return SquaredDistance(s.Mesh.Position[v], place) == 0.f; });
+      [&](int v) { return SquaredDistance(s.Mesh.Position[v], position) == 0.f; });
   };
-  BlockVisit visit = blocks.Open(1);
+  BlockPass pass = blocks.Open(1);
   const float end = blocks.BoxOf(1).High.X;
   const Vector near(end + 0.9f * SurfaceBlocks::MovingInDelta, 0, 0);
   const Vector far(end + 1.1f * SurfaceBlocks::MovingInDelta, 0, 0);
-  s.MoveTo(visit.First, near);
-  s.MoveTo(visit.First + 1, far);
-  EXPECT_TRUE(movedIn(visit, near));
-  EXPECT_FALSE(movedIn(visit, far));
-  blocks.Close(std::move(visit));
+  s.MoveTo(pass.First, near);
+  s.MoveTo(pass.First + 1, far);
+  EXPECT_TRUE(movedIn(pass, near));
+  EXPECT_FALSE(movedIn(pass, far));
+  blocks.Close(std::move(pass));
   blocks.Prepare(Thread);
-  visit = blocks.Open(2);
-  EXPECT_TRUE(movedIn(visit, far)) << "it is the neighbour's, which moves it";
-  blocks.Close(std::move(visit));
+  pass = blocks.Open(2);
+  EXPECT_TRUE(movedIn(pass, far)) << "the adjacent block moves it";
+  blocks.Close(std::move(pass));
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every check of a given surface and of a live one, each with a surface that only it refuses.
+// Each check with a surface that only this check rejects.
 #include "RemeshTestTools.h"
 
 using namespace volumic;
@@ -10,7 +10,7 @@ namespace
 {
 std::string ErrorOf(const IndexedSurface& surface)
 {
-  return RefusalOf([&] { CheckInitialSurface(surface); });
+  return ErrorMessageOf([&] { CheckInitialSurface(surface); });
 }
 
 std::string OutsideErrorOf(const IndexedSurface& surface)
@@ -18,7 +18,7 @@ std::string OutsideErrorOf(const IndexedSurface& surface)
   const TestVolume volume = MakeVolume(20, [](double, double, double) { return 0.; });
   LevelImage image = volume.Image;
   image.Step = { 1, 1, 2 }; // 20 x 20 x 40
-  return RefusalOf([&] { CheckOverlapsImage(surface, image); });
+  return ErrorMessageOf([&] { CheckOverlapsImage(surface, image); });
 }
 
 IndexedSurface Ball(double x = 0, double radius = 2)
@@ -27,7 +27,7 @@ IndexedSurface Ball(double x = 0, double radius = 2)
 }
 }
 
-TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
+TEST(SurfaceCheck, AcceptsValidSurfaces)
 {
   EXPECT_EQ(ErrorOf(Ball()), "");
   EXPECT_EQ(ErrorOf(MakeTorus({ 0, 0, 0 }, 5, 2, 20, 10)), "");
@@ -40,14 +40,14 @@ TEST(SurfaceCheck, TakesWhatIsClosedOrientedAndFreeOfIntersections)
   EXPECT_EQ(ErrorOf(loose), "") << "points without triangles do no harm";
 }
 
-TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
+TEST(SurfaceCheck, RejectsInvalidIndicesAndCoordinates)
 {
   EXPECT_TRUE(Has(ErrorOf({}), "is empty"));
   for (const int corner : { -1, 12, std::numeric_limits<int>::max() })
   {
     IndexedSurface surface = Ball();
     surface.Triangles[7][1] = corner;
-    EXPECT_TRUE(Has(ErrorOf(surface), "triangle 7 with point " + std::to_string(corner)));
+    EXPECT_TRUE(Has(ErrorOf(surface), "triangle 7 has point " + std::to_string(corner)));
   }
   for (const double x : { std::nan(""), HUGE_VAL, -HUGE_VAL })
   {
@@ -57,22 +57,22 @@ TEST(SurfaceCheck, RefusesIndicesAndCoordinatesOutOfRange)
   }
 }
 
-TEST(SurfaceCheck, RefusesTrianglesThatUseAPointTwice)
+TEST(SurfaceCheck, RejectsDegenerateTriangles)
 {
   for (int k = 0; k < 3; ++k)
   {
     IndexedSurface surface = Ball();
     surface.Triangles[4][k] = surface.Triangles[4][(k + 1) % 3];
-    EXPECT_TRUE(Has(ErrorOf(surface), "degenerate triangle (number 4"));
+    EXPECT_TRUE(Has(ErrorOf(surface), "degenerate triangle: triangle 4 uses a point twice"));
   }
 }
 
-TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
+TEST(SurfaceCheck, RejectsOpenNonManifoldAndMisorientedEdges)
 {
   IndexedSurface open = Ball();
   open.Triangles.erase(open.Triangles.begin() + 3);
-  EXPECT_TRUE(Has(ErrorOf(open), "is open: 3 edges"));
-  // Two tetrahedra that share an edge, though no triangle: every edge else has two triangles.
+  EXPECT_TRUE(Has(ErrorOf(open), "is not closed: 3 edges"));
+  // Two tetrahedra that share an edge but no triangle. Every other edge has two triangles.
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
     { -0.6, -1, 0.5 } };
@@ -81,10 +81,10 @@ TEST(SurfaceCheck, RefusesHolesDoubleWallsAndTwists)
   EXPECT_TRUE(Has(ErrorOf(hinge), "1 edges have more than two triangles"));
   IndexedSurface twisted = Ball();
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  EXPECT_TRUE(Has(ErrorOf(twisted), "is not oriented: 3 edges"));
+  EXPECT_TRUE(Has(ErrorOf(twisted), "is not consistently oriented: 3 edges"));
 }
 
-TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
+TEST(SurfaceCheck, RejectsNonManifoldVertices)
 {
   // Two balls with one point in common.
   IndexedSurface surface = Ball();
@@ -97,22 +97,22 @@ TEST(SurfaceCheck, RefusesFansThatTouchInAPoint)
     }
   }
   surface.Points[9] = { 5, 0, 0 };
-  EXPECT_TRUE(Has(ErrorOf(surface), "at 1 points several fans of triangles touch"));
+  EXPECT_TRUE(Has(ErrorOf(surface), "1 points join several triangle fans"));
 }
 
-TEST(SurfaceCheck, RefusesWhatIsInsideOutOrEnclosesNothing)
+TEST(SurfaceCheck, RejectsNonPositiveVolume)
 {
   EXPECT_TRUE(Has(ErrorOf(InsideOut(Ball())), "is inside out"));
   IndexedSurface mostly = InsideOut(Ball(0, 4));
   AddSurface(mostly, Ball(10));
   EXPECT_TRUE(Has(ErrorOf(mostly), "is inside out"));
-  IndexedSurface pillow; // Two triangles, back to back.
+  IndexedSurface pillow; // Two triangles back to back.
   pillow.Points = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
   pillow.Triangles = { { 0, 1, 2 }, { 0, 2, 1 } };
   EXPECT_TRUE(Has(ErrorOf(pillow), "encloses no volume"));
 }
 
-TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
+TEST(SurfaceCheck, RejectsSelfIntersections)
 {
   IndexedSurface crossing = Ball();
   AddSurface(crossing, Ball(2.3));
@@ -121,7 +121,7 @@ TEST(SurfaceCheck, RefusesIntersectionsAndCountsThemOnce)
   EXPECT_TRUE(Has(ErrorOf(crossing), "intersects itself: " + std::to_string(pairs) + " pairs"));
 }
 
-TEST(SurfaceCheck, RefusesWhatLiesOutsideTheImage)
+TEST(SurfaceCheck, RejectsSurfacesOutsideImage)
 {
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ 10, 10, 20 }, 3)), "");
   EXPECT_EQ(OutsideErrorOf(Icosahedron({ -2, 10, 20 }, 3)), "") << "partly";

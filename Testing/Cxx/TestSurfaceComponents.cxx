@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Executor.h"
+#include "Core/Common/IndexedSurface.h"
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceComponents.h"
@@ -19,7 +19,7 @@ IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
   return isCavity ? InsideOut(ball) : ball;
 }
 
-/** A state with these components; delta is 1. */
+/** Make a state of these components, with delta 1. */
 void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 {
   for (const IndexedSurface& component : components)
@@ -31,7 +31,7 @@ void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
 }
 }
 
-TEST(SurfaceComponents, DeletesWhatIsInsideOutWhereItLies)
+TEST(SurfaceComponents, DeletesInsideOutComponents)
 {
   const auto ball = [](double x, double radius) { return Ball({ x, 0, 0 }, radius); };
   const auto cavity = [](double x, double radius) { return Ball({ x, 1, 0 }, radius, true); };
@@ -46,7 +46,8 @@ TEST(SurfaceComponents, DeletesWhatIsInsideOutWhereItLies)
         { ball(0, 15), cavity(0, 10), ball(1, 4), ball(30, 5) }, { 0, 1, 2, 3 } },
       Case{ "cavities in the open", { ball(0, 10), cavity(20, 3), cavity(-20, 3) }, { 0 } },
       Case{ "an island within the object", { ball(0, 15), ball(2, 4) }, { 0 } },
-      Case{ "good ones in an inverted one", { cavity(0, 15), ball(1, 9), cavity(1, 4) }, { 1, 2 } },
+      Case{ "valid components in an inverted one", { cavity(0, 15), ball(1, 9), cavity(1, 4) },
+        { 1, 2 } },
       Case{ "a cavity that is in the object without its island",
         { ball(0, 15), ball(0, 10), cavity(0, 5), cavity(0, 2) }, { 0, 2 } },
       Case{ "the only one", { cavity(0, 8) }, {} } })
@@ -65,13 +66,13 @@ TEST(SurfaceComponents, DeletesWhatIsInsideOutWhereItLies)
     }
     EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(vertices));
     EXPECT_EQ(DescribeBrokenInvariant(state.Mesh), "");
-    EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "nothing wrong is left";
+    EXPECT_FALSE(components.DeleteInsideOut(state, OnThisThread())) << "no component is inside out";
   }
 }
 
-TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
+TEST(SurfaceComponents, LabelsComponentsInOrderOfFirstVertex)
 {
-  // Vertices of all components by turns, so that each lies in all spans.
+  // Interleave the vertices of three components, so that each has vertices in all spans.
   SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 10, 0.3);
   Fill(state, { ball, ball, ball, Ball({ 30, 0, 0 }, 3) });
@@ -99,9 +100,9 @@ TEST(SurfaceComponents, LabelsComponentsByTheirFirstVerticesInAnySpans)
   }
 }
 
-TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
+TEST(SurfaceComponents, IdentifiesCavityByTotalVolume)
 {
-  // A ring that has what faces its first vertex, and alone has the other sign, in the last spans.
+  // A torus whose last spans contain the vertices with contributions of the opposite sign.
   const IndexedSurface ring = MakeTorus({ 0, 0, 0 }, 10, 4, 500, 200);
   for (const bool isCavity : { false, true })
   {
@@ -128,7 +129,7 @@ TEST(SurfaceComponents, KnowsACavityByItsWholeVolume)
 
 namespace
 {
-/** Whether a ball, or a cavity, of so many vertices is deleted where the field is so. */
+/** Return whether a ball, or a cavity, of this edge length is deleted for this field value. */
 bool IsDeleted(double edge, double value, bool isCavity)
 {
   SurfaceState state;
@@ -148,7 +149,7 @@ bool IsDeleted(double edge, double value, bool isCavity)
 }
 }
 
-TEST(SurfaceComponents, DeletesTinyOnesWhollyOnTheWrongSide)
+TEST(SurfaceComponents, DeletesTinyComponentsOnWrongSide)
 {
   constexpr double tiny = 3;   // 12 vertices
   constexpr double larger = 2; // 32 vertices
@@ -156,11 +157,11 @@ TEST(SurfaceComponents, DeletesTinyOnesWhollyOnTheWrongSide)
   EXPECT_FALSE(IsDeleted(tiny, 1, false)) << "an island of the object";
   EXPECT_TRUE(IsDeleted(tiny, 1, true)) << "a cavity in the object";
   EXPECT_FALSE(IsDeleted(tiny, -1, true)) << "a cavity of the background";
-  EXPECT_FALSE(IsDeleted(larger, -1, false)) << "it may still reach the object";
+  EXPECT_FALSE(IsDeleted(larger, -1, false)) << "it is not tiny";
   EXPECT_FALSE(IsDeleted(larger, 1, true));
 }
 
-TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
+TEST(SurfaceComponents, DeletesVanishedComponents)
 {
   SurfaceState state;
   IndexedSurface tetrahedron;
@@ -173,7 +174,7 @@ TEST(SurfaceComponents, DeletesWhatHasHardlyAnyVertices)
   EXPECT_EQ(components.NumberOfComponents(), 1);
 }
 
-TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
+TEST(ComponentWatch, DeletesInvertedComponents)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
@@ -184,27 +185,27 @@ TEST(ComponentWatch, DeletesWhatHasPassedThroughItself)
   {
     for (int v = static_cast<int>(large.Points.size()); v < state.Mesh.Size(); ++v)
     {
-      const Vector way = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
-      state.MoveTo(v, Vector(30, 0, 0) + way * (size > 0 ? size : -0.4f));
+      const Vector direction = Normalized(state.Mesh.Position[v] - Vector(30, 0, 0));
+      state.MoveTo(v, Vector(30, 0, 0) + direction * (size > 0 ? size : -0.4f));
     }
     EXPECT_EQ(watch.DeleteDegenerate(state), size < 0) << "its volume has changed sign";
   }
   EXPECT_EQ(state.Mesh.NumberOfVertices(), static_cast<int>(large.Points.size()));
 }
 
-TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
+TEST(ComponentWatch, WatchesSmallComponentsInRange)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
-  const IndexedSurface speck = Ball({ 30, 0, 0 }, 0.8);
-  Fill(state, { large, speck, Ball({ 40, 0, 0 }, 0.8) });
+  const IndexedSurface small = Ball({ 30, 0, 0 }, 0.8);
+  Fill(state, { large, small, Ball({ 40, 0, 0 }, 0.8) });
   const int first = static_cast<int>(large.Points.size());
-  const int size = static_cast<int>(speck.Points.size());
+  const int size = static_cast<int>(small.Points.size());
   ASSERT_GT(first, 800);
   ASSERT_LE(size, 24);
-  state.FieldValue.Fill(-1.f); // All of the wrong side.
+  state.FieldValue.Fill(-1.f); // All on the wrong side.
   ComponentWatch watch;
-  // One vertex of the first speck, and all of the large one, from which the search ends early.
+  // One vertex of the first small ball, and all of the large one, where the search stops early.
   for (int round = 0; round < 2; ++round)
   {
     watch.LabelSmall(state, 0, first + 1, Everywhere);
@@ -213,13 +214,13 @@ TEST(ComponentWatch, WatchesTheSmallOnesOfARangeOnly)
   EXPECT_TRUE(watch.DeleteDegenerate(state));
   EXPECT_EQ(state.Mesh.NumberOfVertices(), before - size);
   EXPECT_FALSE(state.Mesh.IsAlive(first));
-  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "not in the range";
+  EXPECT_TRUE(state.Mesh.IsAlive(first + size)) << "outside the range";
   EXPECT_FALSE(watch.DeleteDegenerate(state));
   watch.LabelSmall(state, first + size, first + size + 1, Everywhere);
   EXPECT_TRUE(watch.DeleteDegenerate(state));
 }
 
-TEST(ComponentWatch, NeedsNoTestOfComponentsThatAreCertainToBeLarge)
+TEST(ComponentWatch, SkipsCertainlyLargeComponents)
 {
   SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
@@ -247,11 +248,11 @@ TEST(ComponentWatch, NeedsNoTestOfComponentsThatAreCertainToBeLarge)
   EXPECT_TRUE(components.Large().Has(0));
   EditCounts more;
   more.Collapses = 1;
-  EXPECT_FALSE(components.Large().After(more).Has(0)) << "all collapses may be its own";
+  EXPECT_FALSE(components.Large().After(more).Has(0)) << "all collapses may belong to it";
   components.Label(state, OnThisThread());
   EXPECT_TRUE(components.Large().Has(0));
   EditCounts cut;
   cut.Cuts = 1;
   components.Note(cut);
-  EXPECT_FALSE(components.Large().Has(0)) << "it may be in two";
+  EXPECT_FALSE(components.Large().Has(0)) << "a cut may have split it";
 }

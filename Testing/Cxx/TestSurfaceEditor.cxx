@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What each edit refuses: illegal lengths, slivers, faces that turn over, and intersections.
+// Rejection of edits: illegal lengths, slivers, flipped faces and intersections.
 #include "Core/Mesh/EdgeFlip.h"
 #include "Core/Mesh/EdgeSplit.h"
 #include "Core/Surface/Proximity.h"
@@ -12,7 +12,7 @@ using namespace volumic;
 
 namespace
 {
-/** A sphere, and something small near a place of it, perhaps. */
+/** A sphere, optionally with a small obstacle. */
 struct Workbench : Bench
 {
   explicit Workbench(double edge)
@@ -20,11 +20,11 @@ struct Workbench : Bench
   {
   }
 
-  /** Sets a small octahedron. */
-  void Obstruct(const Vector& place, double size)
+  /** Append a small octahedron. */
+  void Obstruct(const Vector& position, double size)
   {
     const int first =
-      this->State.Mesh.Append(Octahedron({ place.X, place.Y, place.Z }, size, size, size));
+      this->State.Mesh.Append(Octahedron({ position.X, position.Y, position.Z }, size, size, size));
     for (int v = first; v < this->State.Mesh.Size(); ++v)
     {
       this->State.AddVertex(v, V);
@@ -42,11 +42,11 @@ struct Workbench : Bench
   SurfaceEditor Editor;
 };
 
-constexpr double Fine = 1.3;   ///< Edges of 1.1 to 1.25.
+constexpr double Fine = 1.3;   ///< Edge lengths from 1.1 to 1.25.
 constexpr double Coarse = 2.2; ///< About 2.
 }
 
-TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
+TEST(SurfaceEditor, SplitInterpolatesPositionAndMotion)
 {
   Workbench bench(Coarse);
   SurfaceState& s = bench.State;
@@ -60,14 +60,14 @@ TEST(SurfaceEditor, SplitsHalfWayAndKeepsTheMotion)
   ASSERT_GE(m, 0);
   EXPECT_LT(Length(bench.At(m) - middle), 1e-6);
   EXPECT_LT(Length(s.Velocity[m] - Vector(0.5f, 1.5f, 0)), 1e-6);
-  EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "where a roll back leads it";
+  EXPECT_LT(Length(s.PreviousPosition[m] - Vector(2, 2, 2)), 1e-6) << "a rollback moves it there";
 }
 
-TEST(SurfaceEditor, CollapseTurnsFacesLittle)
+TEST(SurfaceEditor, CollapseLimitsFaceRotation)
 {
   for (const float height : { 0.15f, 1.1f })
   {
-    Workbench bench(0.7); // Far from the longest legal edges.
+    Workbench bench(0.7); // Far below the longest legal edge.
     const Vector middle = (bench.At(bench.V) + bench.At(bench.W)) * 0.5f;
     const Vector spike = middle + bench.Outward(bench.V) * height;
     EXPECT_EQ(bench.Editor.CollapseTo(bench.V, bench.W, spike, EditTolerance::Smooth).IsDone,
@@ -76,7 +76,7 @@ TEST(SurfaceEditor, CollapseTurnsFacesLittle)
   }
 }
 
-TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
+TEST(SurfaceEditor, CollapseAndMoveAvoidIntersections)
 {
   for (const bool obstructed : { false, true })
   {
@@ -87,13 +87,13 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
         Workbench bench(Fine);
         const Vector start =
           collapse ? (bench.At(bench.V) + bench.At(bench.W)) * 0.5f : bench.At(bench.V);
-        const Vector place = start + bench.Outward(bench.V) * 0.3f;
+        const Vector position = start + bench.Outward(bench.V) * 0.3f;
         if (obstructed)
         {
           bench.Obstruct(start + bench.Outward(bench.V) * 0.5f, 0.3);
         }
-        EXPECT_EQ(collapse ? bench.Editor.CollapseTo(bench.V, bench.W, place, tolerance).IsDone
-                           : bench.Editor.Move(bench.V, place, tolerance).IsDone,
+        EXPECT_EQ(collapse ? bench.Editor.CollapseTo(bench.V, bench.W, position, tolerance).IsDone
+                           : bench.Editor.Move(bench.V, position, tolerance).IsDone,
           !obstructed);
         EXPECT_TRUE(bench.IsSound());
       }
@@ -101,9 +101,9 @@ TEST(SurfaceEditor, CollapseAndMoveKeepClearOfWhatIsNear)
   }
 }
 
-TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
+TEST(SurfaceEditor, FlipAvoidsIntersections)
 {
-  // The new edge lies deeper in the ball than the old one, and something tiny is there.
+  // The new edge is deeper in the ball than the old one, where the obstacle is.
   for (const bool obstructed : { false, true })
   {
     for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
@@ -123,9 +123,9 @@ TEST(SurfaceEditor, FlipsKeepClearOfWhatIsNear)
   }
 }
 
-TEST(SurfaceEditor, RemovalKeepsClearOfWhatIsNear)
+TEST(SurfaceEditor, RemovalAvoidsIntersections)
 {
-  // A vertex of valence 3 stands over a face like a tent, with something in it.
+  // A vertex of valence 3 above a face, with an obstacle between them.
   for (const bool obstructed : { false, true })
   {
     Workbench bench(Coarse);
@@ -148,14 +148,14 @@ TEST(SurfaceEditor, RemovalKeepsClearOfWhatIsNear)
   }
 }
 
-TEST(SurfaceEditor, MoveKeepsToLegalLengthsAndTurnsFacesLittle)
+TEST(SurfaceEditor, MoveLimitsEdgeLengthAndFaceRotation)
 {
   Workbench coarse(Coarse);
   const Vector p = coarse.At(coarse.V);
   const Vector along = Normalized(p - coarse.At(coarse.W));
   EXPECT_TRUE(coarse.Editor.Move(coarse.V, p + along * 0.03f, EditTolerance::Smooth));
   EXPECT_FALSE(coarse.Editor.Move(coarse.V, p + along * 0.8f, EditTolerance::Smooth))
-    << "an edge of 2.7";
+    << "edge length 2.7";
   for (const EditTolerance tolerance : { EditTolerance::Smooth, EditTolerance::Loose })
   {
     Workbench bench(Fine);
@@ -166,16 +166,16 @@ TEST(SurfaceEditor, MoveKeepsToLegalLengthsAndTurnsFacesLittle)
   }
 }
 
-TEST(SurfaceEditor, MergeNeitherSpansFarNorPassesThroughAnything)
+TEST(SurfaceEditor, MergeLimitsBridgeEdgesAndAvoidsIntersections)
 {
   const auto merged = [](double gap, bool obstructed)
   {
-    // Squares face each other along x.
+    // Two squares that face each other along x.
     IndexedSurface surface = Octahedron({ -1 - gap / 2, 0, 0 }, 1, 1, 1);
     AddSurface(surface, Octahedron({ 1 + gap / 2, 0, 0 }, 1, 1, 1));
     if (obstructed)
     {
-      // A thin plate in the gap that reaches out of the rims.
+      // A thin plate in the gap that extends beyond the links.
       AddSurface(surface, Octahedron({ 0, 0, 0 }, 0.1, 3, 3));
     }
     Bench bench(surface);
@@ -186,11 +186,11 @@ TEST(SurfaceEditor, MergeNeitherSpansFarNorPassesThroughAnything)
   };
   EXPECT_TRUE(merged(0.5, false));
   EXPECT_FALSE(merged(0.5, true));
-  EXPECT_TRUE(merged(1.5, false)) << "bridge edges of 3.5";
-  EXPECT_FALSE(merged(3, false)) << "bridge edges of 5";
+  EXPECT_TRUE(merged(1.5, false)) << "bridge edge length 3.5";
+  EXPECT_FALSE(merged(3, false)) << "bridge edge length 5";
 }
 
-TEST(SurfaceEditor, CutDrawsBothSidesApart)
+TEST(SurfaceEditor, CutSeparatesBothSides)
 {
   Bench bench(MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3));
   ASSERT_TRUE(SurfaceEditor(bench.State).Cut(0, 1, 2));
@@ -198,9 +198,9 @@ TEST(SurfaceEditor, CutDrawsBothSidesApart)
   EXPECT_TRUE(bench.IsSound());
 }
 
-TEST(SurfaceEditor, CutThatIsRefusedLeavesAllAsItWas)
+TEST(SurfaceEditor, RejectedCutRestoresSurface)
 {
-  // A needle along the tube, where the two caps would be.
+  // A needle along the tube, at the position of the two caps.
   IndexedSurface surface = MakeTorus({ 0, 0, 0 }, 5, 0.5, 18, 3);
   AddSurface(surface, Octahedron({ 5, 0, 0 }, 0.05, 0.8, 0.05));
   Bench bench(surface);
@@ -221,4 +221,3 @@ TEST(SurfaceEditor, CutThatIsRefusedLeavesAllAsItWas)
     }
   }
 }
-

@@ -9,7 +9,7 @@ using namespace volumic;
 
 namespace
 {
-/** The box [0, a] x [0, b] x [0, c], moved. */
+/** Return the box [0, a] x [0, b] x [0, c], translated. */
 IndexedSurface Box(double a, double b, double c, const Point& at)
 {
   IndexedSurface box;
@@ -23,7 +23,7 @@ IndexedSurface Box(double a, double b, double c, const Point& at)
 }
 }
 
-TEST(SurfaceFeatures, SortsComponentsByAreaAndSignsCavities)
+TEST(SurfaceFeatures, SortsByAreaAndSignsVolume)
 {
   IndexedSurface surface = Box(2, 2, 2, { 4, 4, 4 });
   for (Triangle& t : surface.Triangles)
@@ -46,9 +46,9 @@ TEST(SurfaceFeatures, SortsComponentsByAreaAndSignsCavities)
   EXPECT_EQ(features.EulerCharacteristic, 4);
 }
 
-TEST(SurfaceFeatures, AreTheSameOnThreads)
+TEST(SurfaceFeatures, AreIndependentOfThreads)
 {
-  // Many boxes of one size, told apart by their order alone; their triangles take turns.
+  // Boxes of equal size, distinguished by their order only, with interleaved triangles.
   constexpr int count = 3000;
   IndexedSurface surface;
   for (int b = 0; b < count; ++b)
@@ -56,7 +56,7 @@ TEST(SurfaceFeatures, AreTheSameOnThreads)
     const IndexedSurface box = Box(1, 1, 1, { 2. * (b % 50), 2. * (b / 50), 0. });
     surface.Points.insert(surface.Points.end(), box.Points.begin(), box.Points.end());
   }
-  surface.Points.push_back({ 0, 0, 9 }); // Of no triangle.
+  surface.Points.push_back({ 0, 0, 9 }); // Not in any triangle.
   const IndexedSurface unit = Box(1, 1, 1, { 0, 0, 0 });
   for (const Triangle& t : unit.Triangles)
   {
@@ -70,7 +70,8 @@ TEST(SurfaceFeatures, AreTheSameOnThreads)
   EXPECT_EQ(one.ComponentOfTriangle.front(), 0) << "in the order of their first triangles";
   Executor threads(3);
   ScrambledExecutor backwards(1);
-  for (Executor* executor : { static_cast<Executor*>(&threads), static_cast<Executor*>(&backwards) })
+  for (Executor* executor :
+    { static_cast<Executor*>(&threads), static_cast<Executor*>(&backwards) })
   {
     const SurfaceFeatures other = ComputeFeatures(surface, *executor);
     ASSERT_EQ(other.Components.size(), one.Components.size());
@@ -84,10 +85,9 @@ TEST(SurfaceFeatures, AreTheSameOnThreads)
   }
 }
 
-TEST(SurfaceFeatures, InertiaIsThatAboutTheCentroidInAnyPosition)
+TEST(SurfaceFeatures, InertiaIsAboutCentroid)
 {
-  // A tetrahedron of three perpendicular legs, far from the origin: the moments of a simplex are
-  // known, also those off the diagonal.
+  // A tetrahedron with three perpendicular edges, far from the origin. All its moments are known.
   const double leg[3] = { 2, 3, 5 };
   const Point at = { 100, -50, 7 };
   IndexedSurface surface;

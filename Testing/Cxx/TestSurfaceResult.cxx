@@ -110,8 +110,7 @@ TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
     {
       SurfaceOptions options = IsoHalf();
       options.*c.Option = value;
-      const std::string refusal =
-        RefusalOf([&] { CheckOptions(options); });
+      const std::string refusal = ErrorMessageOf([&] { CheckOptions(options); });
       EXPECT_EQ(refusal.find(c.Name), 0u) << c.Name << " " << value << ": " << refusal;
     }
   }

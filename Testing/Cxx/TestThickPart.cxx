@@ -19,7 +19,7 @@ bool HasPart(const Voxels& isObject, int minimum, int side)
   return HasThickPart(
     [&](std::int64_t voxel)
     {
-      const std::array<int, 3> place = numbers.PlaceOf(voxel);
+      const std::array<int, 3> place = numbers.IjkOf(voxel);
       return isObject(place[0], place[1], place[2]);
     },
     Size, { minimum, side });
@@ -41,20 +41,29 @@ TEST(ThickPart, HasAsManyVoxelsAsItsLargestPart)
     int All;
   };
   for (const Case& test :
-    { Case{ "rod", [](int i, int j, int k)
-        { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); }, 36, 36 },
+    { Case{ "rod",
+        [](int i, int j, int k) { return IsIn(i, 1, 9) && IsIn(j, 3, 4) && IsIn(k, 5, 6); }, 36,
+        36 },
       Case{ "plate", [](int i, int, int) { return i == 6; }, 0, 110 },
-      Case{ "cube with a wire", [](int i, int j, int k)
-        { return (IsIn(i, 0, 1) && j < 2 && k < 2) || (j == 0 && k == 0); }, 8, 18 },
-      Case{ "plate, and a wire at a corner of it", [](int i, int j, int k)
-        { return i == 11 || (i == 10 && j == 0 && k == 0) || (i == 9 && j == 1); }, 0, 111 },
-      Case{ "two parts", [](int i, int j, int k)
-        { return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9)); }, 16, 16 },
-      Case{ "two arms and what joins them", [](int i, int j, int k)
-        { return IsIn(j, 2, 3) && IsIn(k, 1, 8) && IsIn(i, 4, 9) &&
-            (k < 3 || k > 6 || i > 7); }, 64, 64 },
-      Case{ "ends of rows that are one after the other", [](int i, int j, int k)
-        { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); }, 8, 8 } })
+      Case{ "cube with a wire",
+        [](int i, int j, int k) { return (IsIn(i, 0, 1) && j < 2 && k < 2) || (j == 0 && k == 0); },
+        8, 18 },
+      Case{ "plate, and a wire at a corner of it",
+        [](int i, int j, int k)
+        { return i == 11 || (i == 10 && j == 0 && k == 0) || (i == 9 && j == 1); },
+        0, 111 },
+      Case{ "two parts",
+        [](int i, int j, int k)
+        { return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9)); },
+        16, 16 },
+      Case{ "two arms and what joins them",
+        [](int i, int j, int k)
+        { return IsIn(j, 2, 3) && IsIn(k, 1, 8) && IsIn(i, 4, 9) && (k < 3 || k > 6 || i > 7); },
+        64, 64 },
+      Case{ "ends of rows that are one after the other",
+        [](int i, int j, int k)
+        { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); },
+        8, 8 } })
   {
     SCOPED_TRACE(test.Name);
     EXPECT_EQ(HasPart(test.IsObject, std::max(1, test.Thick), 2), test.Thick > 0);

@@ -70,7 +70,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
   };
   for (const Case& test : { Case{ "Level 2, iteration", 9, 2, false },
          Case{ "Level 1, iteration", 1, 1, false }, Case{ "Level 1 is done", 1, 1, true },
-         Case{ "Level 0, division", 1, 0, false }, Case{ "Level 0, regularisation", 3, 0, false } })
+         Case{ "Level 0, subdivision", 1, 0, false }, Case{ "Level 0, optimization", 3, 0, false } })
   {
     SCOPED_TRACE(test.Part);
     const auto filter = FilterOf(this->Image);

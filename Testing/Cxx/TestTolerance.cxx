@@ -182,9 +182,9 @@ TEST(Tolerance, WhatIsWrongIsNamedWithTheWayOut)
     { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SetEdgeLength(1.5); },
       { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
     { [](vtkDeformableSurface* f) { f->ThinPartsOn(), f->SetEdgeLength(1.5); },
-      { "Tolerance is 0.2 and Edge Length is 1.5", "switch Tolerance and Thin Parts off" } },
+      { "Tolerance is 0.2 and Edge Length is 1.5", "set Tolerance to 0 and switch Thin Parts off" } },
     { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SnapToIsoValueOff(); },
-      { "Thin Parts is on, but Snap To Iso Value is off", "Switch it off" } },
+      { "Thin Parts is on, but Snap To Iso Value is off", "Switch Thin Parts off" } },
     { [](vtkDeformableSurface* f)
       { f->SetTolerance(0.), f->ThinPartsOn(), f->SetIsopotentialWeight(0.); },
       { "Thin Parts is on, but Isopotential Weight is not more than" } },

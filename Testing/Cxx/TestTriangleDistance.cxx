@@ -16,20 +16,20 @@ namespace
 {
 constexpr int Steps = 40;
 
-VectorD PlaceIn(const VectorD* t, int i, int j)
+VectorD SamplePoint(const VectorD* t, int i, int j)
 {
   return t[0] + (t[1] - t[0]) * (static_cast<double>(i) / Steps) +
     (t[2] - t[0]) * (static_cast<double>(j) / Steps);
 }
 
-/** Calls visit(place) for many places of a triangle, its edges and corners among them. */
-void ForPlacesIn(const VectorD* t, const std::function<void(const VectorD&)>& visit)
+/** Call visit(point) for sample points of a triangle, including its edges and corners. */
+void ForSamplePoints(const VectorD* t, const std::function<void(const VectorD&)>& visit)
 {
   for (int i = 0; i <= Steps; ++i)
   {
     for (int j = 0; i + j <= Steps; ++j)
     {
-      visit(PlaceIn(t, i, j));
+      visit(SamplePoint(t, i, j));
     }
   }
 }
@@ -52,23 +52,23 @@ double GapBetween(const MeshTriangle& f, const MeshTriangle& g)
 }
 }
 
-TEST(TriangleDistance, IsThatToTheNearestPlace)
+TEST(TriangleDistance, MatchesSampledMinimum)
 {
   std::mt19937 random(1);
   for (int n = 0; n < 200; ++n)
   {
     const MeshTriangle t = RandomTriangle(random, 0);
-    const VectorD place = RandomTriangle(random, 3).Corner[0];
+    const VectorD point = RandomTriangle(random, 3).Corner[0];
     double nearest = 9.;
-    ForPlacesIn(
-      t.Corner, [&](const VectorD& at) { nearest = std::min(nearest, Length(place - at)); });
-    const double distance = std::sqrt(SquaredDistanceToTriangle(place, t.Corner));
+    ForSamplePoints(
+      t.Corner, [&](const VectorD& at) { nearest = std::min(nearest, Length(point - at)); });
+    const double distance = std::sqrt(SquaredDistanceToTriangle(point, t.Corner));
     EXPECT_LE(distance, nearest + 1e-12);
     EXPECT_GT(distance, nearest - 1.8 / Steps);
   }
 }
 
-TEST(TriangleDistance, GapsAreWhereTwoTrianglesAreNearest)
+TEST(TriangleDistance, GapMatchesSampledMinimum)
 {
   std::mt19937 random(2);
   for (int n = 0; n < 60; ++n)
@@ -80,9 +80,10 @@ TEST(TriangleDistance, GapsAreWhereTwoTrianglesAreNearest)
       corner.X += 1.1;
     }
     double nearest = 9.;
-    ForPlacesIn(f.Corner,
-      [&](const VectorD& a) {
-        ForPlacesIn(
+    ForSamplePoints(f.Corner,
+      [&](const VectorD& a)
+      {
+        ForSamplePoints(
           g.Corner, [&](const VectorD& b) { nearest = std::min(nearest, Length(a - b)); });
       });
     EXPECT_LE(GapBetween(f, g), nearest + 1e-12);
@@ -91,15 +92,15 @@ TEST(TriangleDistance, GapsAreWhereTwoTrianglesAreNearest)
   }
 }
 
-TEST(TriangleDistance, WhatTwoTrianglesHaveInCommonIsNoGap)
+TEST(TriangleDistance, GapIgnoresSharedVertices)
 {
   const VectorD a(0, 0, 0);
   const VectorD b(1, 0, 0);
   const MeshTriangle f{ { 0, 1, 2 }, { a, b, VectorD(0, 1, 0) } };
-  // Beyond a common edge, and folded about it.
+  // A common edge: unfolded and folded.
   EXPECT_NEAR(GapBetween(f, { { 1, 0, 3 }, { b, a, VectorD(0, -1, 0) } }), std::sqrt(.5), 1e-12);
   EXPECT_NEAR(GapBetween(f, { { 1, 0, 3 }, { b, a, VectorD(.2, .2, .1) } }), .1, 1e-12);
-  // About a common corner, and nearly in the same plane there.
+  // A common corner: opposite and nearly coplanar.
   EXPECT_NEAR(GapBetween(f, { { 0, 3, 4 }, { a, VectorD(-1, 0, 0), VectorD(0, -1, 0) } }),
     std::sqrt(.5), 1e-12);
   EXPECT_NEAR(

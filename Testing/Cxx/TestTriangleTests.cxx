@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Whether two triangles intersect, and new faces what is there.
+// Intersection of two triangles, and of new faces with a mesh.
 #include "Core/Surface/NewFaces.h"
 #include "LiveSurface.h"
 
@@ -12,24 +12,24 @@ namespace
 const MeshTriangle Corner = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
 }
 
-TEST(TriangleTests, FindsACrossing)
+TEST(TriangleTests, DetectsCrossing)
 {
   EXPECT_TRUE(TrianglesIntersect(Corner, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
   EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 3, 3, -1 }, { 3, 3, 1 }, { 4, 3, 1 }), 1e-9));
   EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 1, 1 }), 1e-9));
 }
 
-TEST(TriangleTests, CountsWhatComesNearerThanTheTolerance)
+TEST(TriangleTests, IntersectWithinTolerance)
 {
   const MeshTriangle g = Named(3, { 1, 1, 0.001 }, { 1, 1, 1 }, { 2, 1, 1 });
   EXPECT_FALSE(TrianglesIntersect(Corner, g, 1e-4));
   EXPECT_TRUE(TrianglesIntersect(Corner, g, 1e-2));
 }
 
-TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
+TEST(TriangleTests, NeedleDoesNotIntersectBeyondTips)
 {
-  // The other triangle shares a tip and lies on its far side: set off by the tolerance, the lines
-  // of the needle's long edges meet a hundred lengths further.
+  // The other triangle shares a tip and lies beyond it. Offset by the tolerance, the long edges of
+  // the needle would meet a hundred lengths beyond the tip.
   const float thin = 1e-6f;
   const MeshTriangle needle = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, thin, 0 } } };
   const MeshTriangle behind = { { 0, 3, 4 },
@@ -39,29 +39,27 @@ TEST(TriangleTests, DoesNotStretchANeedleBeyondItsTips)
   const MeshTriangle across = { { 0, 3, 4 },
     { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
   EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
-  // All corners on one line.
+  // All corners are collinear.
   const MeshTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
   EXPECT_FALSE(TrianglesIntersect(line, behind, 1e-4));
 }
 
-TEST(TriangleTests, FindsACrossingWhicheverHasTheEdge)
+TEST(TriangleTests, DetectsCrossingInEitherOrder)
 {
-  // The second pierces the first with an edge; seen from the second, no edge of its own is met.
+  // An edge of the second pierces the first. No edge of the first intersects the second.
   const MeshTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
   const MeshTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
   EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9));
   EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9));
 }
 
-TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
+TEST(TriangleTests, DetectsCoplanarContainment)
 {
-  // However the plane lies: the flat test leaves one coordinate out.
+  // For any orientation of the plane: the planar test drops one coordinate.
   for (int axis = 0; axis < 3; ++axis)
   {
     const auto turned = [axis](double a, double b)
-    {
-      return axis == 0 ? VectorD(0, a, b) : (axis == 1 ? VectorD(b, 0, a) : VectorD(a, b, 0));
-    };
+    { return axis == 0 ? VectorD(0, a, b) : (axis == 1 ? VectorD(b, 0, a) : VectorD(a, b, 0)); };
     const MeshTriangle large = Named(0, turned(-9, -9), turned(9, -9), turned(0, 9));
     const MeshTriangle small = Named(3, turned(0, 0), turned(1, 0), turned(0, 1));
     EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9)) << axis;
@@ -71,7 +69,7 @@ TEST(TriangleTests, FindsOneTriangleWithinTheOtherInAPlane)
   }
 }
 
-TEST(TriangleTests, FindsAFoldWhicheverWayFacesAreOriented)
+TEST(TriangleTests, DetectsFoldForAnyOrientation)
 {
   const VectorD a(0, 0, 0);
   const VectorD b(4, 0, 0);
@@ -84,25 +82,25 @@ TEST(TriangleTests, FindsAFoldWhicheverWayFacesAreOriented)
   }
 }
 
-TEST(TriangleTests, AllowsSharedCornersAndEdgesOnly)
+TEST(TriangleTests, SharedCornersAndEdgesDoNotIntersect)
 {
-  // A common edge, flat and folded.
+  // A common edge: flat and folded.
   EXPECT_FALSE(
     TrianglesIntersect(Corner, { { 1, 3, 2 }, { { 4, 0, 0 }, { 4, 4, 0 }, { 0, 4, 0 } } }, 1e-9));
   EXPECT_TRUE(
     TrianglesIntersect(Corner, { { 1, 3, 2 }, { { 4, 0, 0 }, { 1, 1, 0 }, { 0, 4, 0 } } }, 1e-9));
-  // A common corner, beside and through.
+  // A common corner: disjoint and crossing.
   EXPECT_FALSE(
     TrianglesIntersect(Corner, { { 0, 3, 4 }, { { 0, 0, 0 }, { -4, 0, 0 }, { 0, -4, 0 } } }, 1e-9));
   EXPECT_TRUE(
     TrianglesIntersect(Corner, { { 0, 3, 4 }, { { 0, 0, 0 }, { 2, 2, 1 }, { 1, 1, -1 } } }, 1e-9));
 }
 
-TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
+TEST(NewFacesIntersect, IgnoresRemovedFaces)
 {
   const LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
   const Vector p = state.Mesh.Position[9];
-  // A triangle through the surface at vertex 9.
+  // A triangle that crosses the surface at vertex 9.
   const VectorD n(Normalized(p));
   const VectorD side(0.1, 0.2, 0.1);
   const std::vector<MeshTriangle> through = { Named(
@@ -111,7 +109,7 @@ TEST(NewFacesIntersect, SeesWhatIsThereButNotWhatGoes)
   EXPECT_FALSE(NewFacesIntersect(state, through, { { 9 }, 1, false }));
 }
 
-TEST(NewFacesIntersect, SeesNewFacesThatMeetEachOther)
+TEST(NewFacesIntersect, TestsNewFacesAgainstEachOther)
 {
   const LiveSurface state(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
   const MeshTriangle flat = Named(1000, { 10, 0, 0 }, { 12, 0, 0 }, { 10, 2, 0 });

@@ -144,11 +144,11 @@ TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
   };
   const double infinite = std::numeric_limits<double>::infinity();
   for (const Case& is :
-    { Case{ 300, 200, { "Upper Value is 200, but Iso Value is 300; it must be more" } },
+    { Case{ 300, 200, { "Upper Value is 200, but Iso Value is 300. Set Upper Value to more" } },
       Case{ 300, 300, { "Upper Value is 300, but Iso Value is 300" } },
       Case{ std::nan(""), 200, { "Upper Value is 200, but Iso Value is not set" } },
       Case{ -infinite, 200, { "Iso Value is -inf", "switch Object Is Bright off" } },
-      Case{ 100, std::nan(""), { "Upper Value is nan, but Iso Value is 100; it must be more" } },
+      Case{ 100, std::nan(""), { "Upper Value is nan, but Iso Value is 100. Set Upper Value to more" } },
       Case{ 610, 700, { "no voxel is between Iso Value, 610, and Upper Value, 700" } },
       Case{ -10, 700, { "all voxels are between Iso Value, -10, and Upper Value, 700" } } })
   {

@@ -37,10 +37,10 @@ void Pierce(SurfaceState& state)
 class Intruder final : public Monitor
 {
 public:
-  bool GoesOn = true;
+  bool CanContinue = true;
   bool HasPierced = false;
 
-  bool GoOn(const Status&) override { return this->GoesOn || !this->HasPierced; }
+  bool GoOn(const Status&) override { return this->CanContinue || !this->HasPierced; }
 };
 
 SurfaceOptions TwentyIterations()
@@ -63,7 +63,7 @@ TEST(Verification, FindsSheetsThatFaceTheSameWay)
     bench.State.AddVertex(v, 0);
   }
   bench.UpdateShape();
-  proximity.Examine(bench.State, bench.All(), OnThisThread());
+  proximity.Test(bench.State, bench.All(), OnThisThread());
   EXPECT_TRUE(proximity.Intersections().empty()) << "which is why there is a last look";
   EXPECT_GT(CountIn(bench), 0u);
 }
@@ -80,8 +80,8 @@ TEST(Verification, AgreesWithTheTreeOfTriangles)
     const float most = 0.02f * static_cast<float>(scene);
     for (const int v : bench.All())
     {
-      bench.State.MoveTo(v,
-        bench.State.Mesh.Position[v] + Vector(way(engine), way(engine), way(engine)) * most);
+      bench.State.MoveTo(
+        v, bench.State.Mesh.Position[v] + Vector(way(engine), way(engine), way(engine)) * most);
     }
     bench.UpdateShape();
     const bool found = CountSelfIntersections(bench.State.Mesh.ToIndexed(), 1) > 0;
@@ -100,11 +100,11 @@ TEST(Verification, TheEndOfALevelIsMended)
   undisturbed.StartEnclosing(volume.Image, 0);
   undisturbed.Run();
   EXPECT_EQ(undisturbed.Verified().Found, 0);
-  const double wanted = ComputeFeatures(undisturbed.Result()).Volume;
+  const double requested = ComputeFeatures(undisturbed.Result()).Volume;
   for (const bool goesOn : { true, false })
   {
     Intruder intruder;
-    intruder.GoesOn = goesOn;
+    intruder.CanContinue = goesOn;
     TestEvolution evolution(TwentyIterations(), Threads, intruder);
     evolution.AfterSweep = [&]
     {
@@ -125,7 +125,7 @@ TEST(Verification, TheEndOfALevelIsMended)
     EXPECT_EQ(CountSelfIntersections(surface), 0);
     const SurfaceFeatures features = ComputeFeatures(surface);
     EXPECT_LE(features.EulerCharacteristic, 2) << "what was pulled through may leave a handle";
-    EXPECT_NEAR(features.Volume, wanted, 0.1 * wanted) << "one that is stopped does not snap";
+    EXPECT_NEAR(features.Volume, requested, 0.1 * requested) << "one that is stopped does not snap";
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Verification, NoSnapshotIntersectsItself)
   Monitor silent;
   TestEvolution evolution(TwentyIterations(), Threads, silent);
   std::vector<std::size_t> points;
-  evolution.Task.Look = [&](int iteration, const std::function<SurfaceResult()>& take)
+  evolution.Task.Observe = [&](int iteration, const std::function<SurfaceResult()>& take)
   {
     if (iteration == 20)
     {
@@ -154,7 +154,7 @@ TEST(Verification, WhatCannotBeMendedIsTold)
 {
   const TestVolume volume = BallVolume(32, 10);
   Intruder intruder;
-  intruder.GoesOn = false;
+  intruder.CanContinue = false;
   TestEvolution evolution(TwentyIterations(), Threads, intruder);
   evolution.AfterSweep = [&]
   {

@@ -6,11 +6,11 @@
 
 using namespace volumic;
 
-TEST(VertexGrid, FindsAllWithinTheRadius)
+TEST(VertexGrid, FindsAllVerticesWithinRadius)
 {
   const SurfaceMesh mesh = MakeSphere({ 10, 10, 10 }, 6, 0.7);
   VertexGrid grid;
-  grid.Reset(Vector(3, 3, 3), Vector(12, 18, 18), 1.3f); // Part of it lies beyond the grid.
+  grid.Reset(Vector(3, 3, 3), Vector(12, 18, 18), 1.3f); // Part of the mesh is outside the grid.
   for (int v = 0; v < mesh.Size(); ++v)
   {
     grid.Insert(v, mesh.Position[v]);
@@ -31,26 +31,26 @@ TEST(VertexGrid, FindsAllWithinTheRadius)
   }
 }
 
-TEST(VertexGrid, FindsVerticesWhereTheyHaveMovedTo)
+TEST(VertexGrid, FindsMovedVertices)
 {
   VertexGrid grid;
   grid.Reset(Vector(0, 0, 0), Vector(20, 20, 20), 1.f);
   grid.Insert(0, Vector(3, 3, 3));
   grid.Insert(1, Vector(3, 3, 3));
   grid.Move(0, Vector(15, 4, 9));
-  const auto within = [&grid](const Vector& place)
+  const auto within = [&grid](const Vector& position)
   {
     std::set<int> found;
-    grid.Visit(place, 0.5f, [&](int w) { found.insert(w); });
+    grid.Visit(position, 0.5f, [&](int w) { found.insert(w); });
     return found;
   };
   EXPECT_EQ(within(Vector(15, 4, 9)), std::set<int>{ 0 });
   EXPECT_EQ(within(Vector(3, 3, 3)), std::set<int>{ 1 });
 }
 
-TEST(VertexGrid, CostsNoMemoryWithoutLimit)
+TEST(VertexGrid, LimitsMemory)
 {
-  // 10^15 cells, if they were as asked for.
+  // 10^15 cells of the requested size.
   VertexGrid grid;
   grid.Reset(Vector(0, 0, 0), Vector(1e5f, 1e5f, 1e5f), 1.f);
   grid.Insert(0, Vector(9e4f, 1, 1));
@@ -59,7 +59,7 @@ TEST(VertexGrid, CostsNoMemoryWithoutLimit)
   EXPECT_EQ(found, 1);
 }
 
-TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
+TEST(VertexGrid, VisitOrderIsIndependentOfInsertionOrder)
 {
   SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
   const auto visited = [](const VertexGrid& grid)
@@ -71,30 +71,30 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   VertexGrid all;
   all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
   Executor threads(3);
-  // Some are not there; the last third comes to a grid that is not empty.
-  const auto isThere = [](int v) { return v % 5 != 2; };
+  // Some vertices are skipped. The last third is added to a nonempty grid.
+  const auto isPresent = [](int v) { return v % 5 != 2; };
   const int third = mesh.Size() / 3;
   for (int v = third - 1; v >= 0; --v)
   {
-    if (isThere(v))
+    if (isPresent(v))
     {
       all.Insert(v, mesh.Position[v]);
     }
   }
-  all.InsertAll(mesh.Position, static_cast<std::size_t>(third), isThere, threads);
-  // From the last to the first, each by way of somewhere else.
+  all.InsertAll(mesh.Position, static_cast<std::size_t>(third), isPresent, threads);
+  // In reverse order, each at another position first.
   VertexGrid one;
   one.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
   for (int v = mesh.Size() - 1; v >= 0; --v)
   {
-    if (isThere(v))
+    if (isPresent(v))
     {
       one.Insert(v, mesh.Position[v] * 0.9f);
     }
   }
   for (int v = 0; v < mesh.Size(); ++v)
   {
-    if (isThere(v))
+    if (isPresent(v))
     {
       one.Move(v, mesh.Position[v]);
     }
@@ -102,4 +102,3 @@ TEST(VertexGrid, VisitsInTheSameOrderHoweverTheVerticesHaveCome)
   EXPECT_GT(visited(one).size(), 1000u);
   EXPECT_EQ(visited(one), visited(all));
 }
-

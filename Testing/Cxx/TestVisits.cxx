@@ -47,7 +47,7 @@ struct SweptRun
     evolution.StartEnclosing(scene.Coarse.Image, 1);
     if (evolution.Run() != StopReason::Cancelled && evolution.Divide(scene.Fine.Image, 0))
     {
-      this->Enclosed = evolution.Lost().Enclosed + evolution.Lost().EnclosedCavities;
+      this->Enclosed = evolution.Missed().Enclosed + evolution.Missed().EnclosedCavities;
       evolution.Run();
     }
     this->Surface = evolution.Result();
@@ -72,7 +72,7 @@ void ExpectSound(const SweptRun& run)
 }
 }
 
-TEST(Visits, MakeTheSurfaceOfOneBlock)
+TEST(Passes, MakeTheSurfaceOfOneBlock)
 {
   Executor thread;
   Monitor monitor;
@@ -100,7 +100,7 @@ TEST(Visits, MakeTheSurfaceOfOneBlock)
   }
 }
 
-TEST(Visits, MakeTheSameRunOnThreadsThatAreHeldUp)
+TEST(Passes, MakeTheSameRunOnThreadsThatAreHeldUp)
 {
   // It does all that there is to do: merges, cuts, splits, collapses, lost parts and cavities.
   const auto made = [](Executor& executor)
@@ -175,7 +175,7 @@ struct Wilderness
   /** Visits the block in the middle, for many iterations. @return what the edits were */
   EditCounts VisitMiddle(int iterations, Box& written)
   {
-    BlockVisit visit = this->Blocks->Open(this->Blocks->BlockAt(Vector(55, 55, 55)));
+    BlockPass visit = this->Blocks->Open(this->Blocks->BlockAt(Vector(55, 55, 55)));
     written = visit.Written;
     {
       SurfaceIteration iteration(this->State, visit, &this->TheField, true);
@@ -184,14 +184,14 @@ struct Wilderness
         iteration.Run(this->Motion, SurfaceIteration::Mode::Evolve);
       }
     }
-    const EditCounts counts = visit.Share.Counts;
+    const EditCounts counts = visit.Context.Counts;
     this->Blocks->Close(std::move(visit));
     return counts;
   }
 };
 }
 
-TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
+TEST(Passes, WriteNowhereElseHoweverManyIterationsTheyMake)
 {
   Wilderness before;
   Wilderness after;
@@ -224,7 +224,7 @@ TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
     ASSERT_TRUE(std::equal(ring.Item, ring.Item + ring.Count, now.Item));
     ASSERT_EQ(after.State.Active[v], before.State.Active[v]);
     ASSERT_EQ(after.State.RemeshFlags[v], before.State.RemeshFlags[v]);
-    ASSERT_EQ(after.State.Drift[v], before.State.Drift[v]);
+    ASSERT_EQ(after.State.MotionSinceTest[v], before.State.MotionSinceTest[v]);
     ASSERT_EQ(after.State.Marks[v], 0);
   }
   EXPECT_GT(beyond, 5000);
@@ -233,7 +233,7 @@ TEST(Visits, WriteNowhereElseHoweverManyIterationsTheyMake)
   EXPECT_EQ(CountSelfIntersections(after.State.Mesh.ToIndexed()), 0);
 }
 
-TEST(Visits, DependOnNothingFarAway)
+TEST(Passes, DependOnNothingFarAway)
 {
   Wilderness one;
   Wilderness other;

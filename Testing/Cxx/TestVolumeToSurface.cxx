@@ -177,7 +177,7 @@ TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
   Voxels(image)->Fill(4.0);
   vtkNew<vtkVolumeToSurface> filter;
   filter->SetInputData(image);
-  ExpectErrorOf(filter, { "Iso Value is not set, and can't be found", "ranges from 4 to 4" });
+  ExpectErrorOf(filter, { "Iso Value is not set, and cannot be computed", "ranges from 4 to 4" });
   filter->SetInputData(BallImage(20, 20, 20));
   filter->Update();
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Rough labels, smooth or strict: VoxelTolerance and Smoothing, by judges that share no code with
-// the filter.
+// VoxelTolerance and Smoothing of rough labels, measured by an independent implementation.
 #include "ForVoxels.h"
 #include "JudgedLabels.h"
 
@@ -14,7 +13,7 @@ namespace
 {
 constexpr int Size = 40;
 
-/** 0 to 1, another one for each voxel. */
+/** Return pseudo-random noise from 0 to 1. */
 double NoiseAt(int i, int j, int k)
 {
   auto bits = static_cast<std::uint32_t>(i + Size * (j + Size * k)) * 2654435761u;
@@ -24,7 +23,7 @@ double NoiseAt(int i, int j, int k)
   return bits / 4294967296.0;
 }
 
-/** A ball whose boundary is off by up to .6 voxels, at random, as what is found by a threshold. */
+/** A ball with boundary noise of up to 0.6 voxels, as after thresholding. */
 LabelMap RoughBall(double stretch = 1.0)
 {
   LabelMap map;
@@ -39,31 +38,31 @@ LabelMap RoughBall(double stretch = 1.0)
   return map;
 }
 
-/** Wrong centres, and how far the furthest of them is, by VTK's signed distance; world units. */
-struct Wrong
+/** Counts of misclassified voxel centres, by VTK's signed distance. */
+struct Misclassified
 {
   int Count = 0;
-  int Missed = 0; ///< further than the tolerance
+  int Missed = 0; ///< further from the surface than the tolerance
 };
 
-Wrong JudgeWrong(vtkPolyData* surface, const LabelMap& map, double tolerance)
+Misclassified CountMisclassified(vtkPolyData* surface, const LabelMap& map, double tolerance)
 {
   vtkNew<vtkImplicitPolyDataDistance> distance;
   distance->SetInput(surface);
-  Wrong wrong;
+  Misclassified misclassified;
   for (std::size_t v = 0; v < map.Values.size(); ++v)
   {
     const auto at = [&](std::size_t index, int axis)
     { return map.Origin[axis] + static_cast<double>(index) * map.Spacing[axis]; };
-    const double value = distance->EvaluateFunction(
-      at(v % Size, 0), at(v / Size % Size, 1), at(v / Size / Size, 2));
+    const double value =
+      distance->EvaluateFunction(at(v % Size, 0), at(v / Size % Size, 1), at(v / Size / Size, 2));
     if ((map.Values[v] != 0) != (value < 0.0))
     {
-      ++wrong.Count;
-      wrong.Missed += std::abs(value) > tolerance ? 1 : 0;
+      ++misclassified.Count;
+      misclassified.Missed += std::abs(value) > tolerance ? 1 : 0;
     }
   }
-  return wrong;
+  return misclassified;
 }
 
 double DihedralOf(vtkPolyData* block)
@@ -78,24 +77,24 @@ double VolumeByVoxels(vtkPolyData* block, const LabelMap& map)
 }
 }
 
-TEST(VoxelTolerance, MakesARoughLabelSmoothAndKeepsItsVolume)
+TEST(VoxelTolerance, SmoothsRoughLabelAndPreservesVolume)
 {
   const LabelMap map = RoughBall();
   const Filter filter = FilterOf(ToImage(map));
   EXPECT_EQ(filter->GetVoxelTolerance(), -1.0) << "a quarter of Smoothing";
-  filter->SetFinestLevel(-1); // of both, so that edges are as long
+  filter->SetFinestLevel(-1); // for both surfaces, so that their edge lengths are equal
   filter->SetVoxelTolerance(0.0);
-  const double strict = DihedralOf(BlockOf(filter));
+  const double interpolating = DihedralOf(BlockOf(filter));
   filter->SetVoxelTolerance(0.5);
   vtkPolyData* block = BlockOf(filter);
-  EXPECT_LT(DihedralOf(block), 0.6 * strict);
+  EXPECT_LT(DihedralOf(block), 0.6 * interpolating);
   EXPECT_NEAR(VolumeByVoxels(block, map), 1.0, 0.01);
   const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
   EXPECT_TRUE(verdict.Topology.Closed && verdict.Topology.Manifold && verdict.Topology.Outward);
   EXPECT_EQ(verdict.Intersections.Pairs, 0u);
 }
 
-TEST(VoxelTolerance, IsTheFurthestThatACentreIsWrongAndWhatIsFurtherIsTold)
+TEST(VoxelTolerance, BoundsDistanceOfMisclassifiedVoxels)
 {
   for (const double stretch : { 1.0, 2.0 })
   {
@@ -106,16 +105,17 @@ TEST(VoxelTolerance, IsTheFurthestThatACentreIsWrongAndWhatIsFurtherIsTold)
       const Filter filter = FilterOf(ToImage(map));
       filter->SetVoxelTolerance(tolerance);
       vtkPolyData* block = BlockOf(filter);
-      const Wrong wrong = JudgeWrong(block, map, tolerance * map.Spacing[0]);
-      EXPECT_EQ(FieldOf(block, "WrongVoxels"), wrong.Count);
-      EXPECT_EQ(FieldOf(block, "MissedVoxels"), wrong.Missed);
-      EXPECT_LT(wrong.Missed, 0.03 * FieldOf(block, "LabelVoxels"));
-      EXPECT_TRUE(tolerance == 0.0 || wrong.Count > 2 * wrong.Missed);
+      const Misclassified misclassified =
+        CountMisclassified(block, map, tolerance * map.Spacing[0]);
+      EXPECT_EQ(FieldOf(block, "WrongVoxels"), misclassified.Count);
+      EXPECT_EQ(FieldOf(block, "MissedVoxels"), misclassified.Missed);
+      EXPECT_LT(misclassified.Missed, 0.03 * FieldOf(block, "LabelVoxels"));
+      EXPECT_TRUE(tolerance == 0.0 || misclassified.Count > 2 * misclassified.Missed);
     }
   }
 }
 
-TEST(LabelSmoothing, MoreOfItIsNotRougher)
+TEST(LabelSmoothing, DoesNotIncreaseRoughness)
 {
   const Filter filter = FilterOf(ToImage(RoughBall()));
   for (const double tolerance : { 0.0, 0.5 })

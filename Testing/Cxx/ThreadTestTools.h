@@ -19,7 +19,7 @@ inline const tbb::global_control ManyThreads(tbb::global_control::max_allowed_pa
 
 /** Waits for something that is sure to come; @return whether it has, on a machine however slow. */
 template <typename Condition>
-bool HasCome(const Condition& condition)
+bool HasReachedEnd(const Condition& condition)
 {
   const auto start = std::chrono::steady_clock::now();
   while (!condition())
@@ -42,10 +42,7 @@ class DelayedThreads final : public Executor
 public:
   /** @param longest delay in microseconds; one in `every` items is delayed. */
   DelayedThreads(int numberOfThreads, unsigned seed, unsigned longest, unsigned every = 1)
-    : Executor(numberOfThreads)
-    , State(seed)
-    , Longest(longest)
-    , Every(every)
+    : Executor(numberOfThreads), State(seed), Longest(longest), Every(every)
   {
   }
 

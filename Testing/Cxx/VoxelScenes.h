@@ -11,7 +11,7 @@
 #include <sstream>
 #include <tuple>
 
-/** Maps of labels, and the tests of their meshes. */
+/** Label maps and tests of their meshes. */
 namespace volumic
 {
 using Voxel = VoxelTopology::Voxel;
@@ -25,7 +25,7 @@ struct VoxelScene
   std::array<double, 3> Spacing = { 1., 1., 1. };
   int Outside = -1;
 
-  /** Of inner voxels, with a layer about them; fewest voxels first in rank, background last. */
+  /** Create inner voxels and a layer around them. Ranks: fewest voxels first, background last. */
   template <typename LabelAt>
   VoxelScene(const Voxel& inner, LabelAt&& labelAt, int outside = -1)
     : Size({ inner[0] + 2, inner[1] + 2, inner[2] + 2 }), Outside(outside)
@@ -112,10 +112,10 @@ struct VoxelScene
   InterfaceMesh Mesh() const { return MakeDualMesh(this->Grid(), OnThisThread()); }
 };
 
-/** What is wrong with the surface of a label; nothing: empty. */
+/** Return a description of the faults of the surface of a label; empty: none. */
 inline std::string FaultsOf(const SurfaceTopology& surface, BlockTopology voxels, bool isUnbounded)
 {
-  // The surface of what is about all others lacks that of the box, which is a sphere.
+  // The surface of the unbounded background lacks the surface of the box, which is a sphere.
   const BlockTopology found = { std::llround(surface.Euler()) + isUnbounded,
     surface.Positive + isUnbounded, surface.Negative };
   std::ostringstream text;
@@ -130,7 +130,7 @@ inline std::string FaultsOf(const SurfaceTopology& surface, BlockTopology voxels
   return text.str();
 }
 
-/** Closed, oriented and manifold, with the topology of the voxels. */
+/** Expect closed, oriented manifolds with the topology of the voxels. */
 inline void ExpectVoxelTopology(
   const VoxelScene& scene, const InterfaceMesh& mesh,
   const std::function<std::string(int label)>& describe = [](int) { return ""; })
@@ -141,7 +141,7 @@ inline void ExpectVoxelTopology(
   {
     if (scene.Outside >= 0 && (label == 0 || label == scene.Outside))
     {
-      continue; // Sides have no faces with these.
+      continue; // There are no faces between sides and these labels.
     }
     const auto found = surfaces.find(label);
     const std::string text =
@@ -154,14 +154,14 @@ inline void ExpectVoxelTopology(
   EXPECT_EQ(faults, 0);
 }
 
-/** The same, and no triangles intersect. */
+/** Expect the same, and that no triangles intersect. */
 inline void ExpectSound(const VoxelScene& scene, const InterfaceMesh& mesh)
 {
   ExpectVoxelTopology(scene, mesh);
   EXPECT_EQ(CountSelfIntersections(AllFaces(mesh)), 0);
 }
 
-/** Labels from 0 to before `labels` at random, in a box or in background. */
+/** Random labels from 0 to labels - 1, in a box or in background. */
 inline VoxelScene NoiseScene(int side, int labels, unsigned seed, bool isInBox = false)
 {
   std::mt19937 random(seed);
@@ -171,7 +171,7 @@ inline VoxelScene NoiseScene(int side, int labels, unsigned seed, bool isInBox =
     isInBox ? labels : -1);
 }
 
-/** Cells of seeds at random, numbered from `first`. */
+/** Voronoi cells of random seeds, numbered from `first`. */
 inline VoxelScene GrainScene(int side, int grains, int first, unsigned seed, int outside = -1)
 {
   std::mt19937 random(seed);

@@ -11,12 +11,12 @@
 #include <ostream>
 
 /**
- * The topology of labels, counted from the voxels alone by the stated connectivity. No code is
- * shared with DualMesh.
+ * Topology of labels, computed from the voxels and the documented connectivity. Shares no code with
+ * DualMesh.
  */
 namespace volumic
 {
-/** Topology of a label's block, a compact solid. */
+/** Topology of the compact solid of a label. */
 struct BlockTopology
 {
   long long Euler = 0;
@@ -37,16 +37,16 @@ inline std::ostream& operator<<(std::ostream& stream, const BlockTopology& topol
 }
 
 /**
- * Labels of a box of voxels. A label is connected through voxel faces, and
- * across a voxel edge where its two voxels are opposite and the two others are of two different
- * labels, or both of one label of later rank.
+ * Labels of a box of voxels. A label is connected through voxel faces. It is connected across a
+ * voxel edge with two opposite voxels of the label, if the two other voxels have different labels,
+ * or one label of higher rank.
  */
 class VoxelTopology
 {
 public:
   using Voxel = std::array<int, 3>;
 
-  /** @param labels x fastest @param rankOf each label */
+  /** @param labels x fastest @param rankOf rank of each label */
   VoxelTopology(const Voxel& size, const std::vector<int>& labels, std::vector<int> rankOf)
     : RankOf(std::move(rankOf)), Beyond(static_cast<int>(this->RankOf.size())),
       Size({ size[0] + 2, size[1] + 2, size[2] + 2 }),
@@ -59,11 +59,11 @@ public:
       [&](int v) { this->Labels[static_cast<std::size_t>(v)] = *label++; });
   }
 
-  /** Of all labels that there are. */
+  /** Return the topology of all labels. */
   std::map<int, BlockTopology> Count() const
   {
     std::map<int, BlockTopology> counts;
-    std::map<int, std::array<Voxel, 2>> boxes; // with one voxel about the label
+    std::map<int, std::array<Voxel, 2>> boxes; // bounding boxes with a margin of one voxel
     DisjointSets parts(this->Labels.size());
     const Voxel end = { this->Size[0] - 1, this->Size[1] - 1, this->Size[2] - 1 };
     this->ForBox({ 0, 0, 0 }, end,
@@ -114,10 +114,10 @@ public:
   }
 
 private:
-  using Ring = std::array<int, 4>;    ///< about an edge, in cyclic order
-  using Octants = std::array<int, 8>; ///< about a corner; bit 0 of the index is along x
+  using Ring = std::array<int, 4>;    ///< around an edge, in cyclic order
+  using Octants = std::array<int, 8>; ///< around a corner; bit 0 of the index is along x
 
-  /** The diagonal of four labels that is joined; -1: neither. */
+  /** Return the diagonal of four labels that is connected; -1: none. */
   int JoinedDiagonal(const Ring& ring) const
   {
     const auto isSplit = [&](int d)
@@ -129,7 +129,7 @@ private:
     return isSplit(0) ? 0 : isSplit(1) ? 1 : -1;
   }
 
-  /** Of each octant the first one that is connected with it within the cell about the corner. */
+  /** Return for each octant the first octant that is connected with it within the cell. */
   Octants RegionsOf(const Octants& octants) const
   {
     if (std::count(octants.begin(), octants.end(), octants[0]) == 8)
@@ -163,7 +163,7 @@ private:
         join(ring[d], ring[d + 2]);
       }
     }
-    // ABCDDCBA: no label may take the centre, so that of first rank is joined through it.
+    // ABCDDCBA: the label of the lowest rank is connected through the centre.
     if (std::equal(octants.begin(), octants.end(), octants.rbegin()) &&
       std::set<int>(octants.begin(), octants.end()).size() == 4)
     {
@@ -191,13 +191,13 @@ private:
   {
     return { first, first + b, first + b + c, first + c };
   }
-  /** The voxels about an edge along an axis. */
+  /** Return the voxels around an edge along an axis. */
   Ring RingAt(int v, int axis) const
   {
     return RingAt(v, this->Stride[(axis + 1) % 3], this->Stride[(axis + 2) % 3]);
   }
 
-  /** Components in a box of what is not of a label, by the complementary connectivity. */
+  /** Count the components of the complement of a label in a box (complementary connectivity). */
   int PartsWithout(int label, const Voxel& first, const Voxel& end) const
   {
     const Voxel size = { end[0] - first[0], end[1] - first[1], end[2] - first[2] };
@@ -252,7 +252,7 @@ private:
   }
 
   std::vector<int> RankOf;
-  int Beyond; ///< what is about the box, of the last rank
+  int Beyond; ///< label outside the box, of the highest rank
   Voxel Size;
   Voxel Stride;
   std::vector<int> Labels;

@@ -161,4 +161,4 @@ class InputsTest(testing.PluginTestCase):
                 filter_.NaNIsBackground = 0
                 with testing.CapturedMessages() as messages:
                     self.assertEqual(testing.fetch(filter_).GetNumberOfPoints(), 0)
-                self.assertIn("Turn NaN Is Background on", messages.text)
+                self.assertIn("Switch NaN Is Background on", messages.text)

@@ -202,7 +202,7 @@ class ParallelTest(unittest.TestCase):
         if self.count == 1:
             self.assertEqual(messages.text, "")
         elif not SERVER:
-            self.assertIn("Save it as .pvti", messages.text)
+            self.assertIn("Save the distributed image as .pvti", messages.text)
         if self.count > 1:
             self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
         path = plugin_testing.output_path("image.pvti")

@@ -188,7 +188,7 @@ class ProxyDefaultsTest(unittest.TestCase):
             self.assertEqual(messages.text, "")
             simple.GetActiveSource().UpdatePipeline()
         self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
-        self.assertIn("all voxels are 3: no value separates", messages.text)
+        self.assertIn("all voxels are 3, so no value separates", messages.text)
         testing.delete_sources()
 
     def test_lists_of_positions_reach_the_object(self):

@@ -128,7 +128,7 @@ class VolumeReaderTest(testing.PluginTestCase):
         with testing.CapturedMessages() as messages:
             source = simple.VolumicDICOM(FileName=folder)
             source.UpdatePipeline()
-        self.assertIn("2 series, one is needed; choose it as Series: 1: ", messages.text)
+        self.assertIn("2 series; choose one as Series: 1: ", messages.text)
         source.SMProxy.UpdatePropertyInformation()
         series = source.SMProxy.GetProperty("SeriesList")
         listed = [series.GetElement(i) for i in range(series.GetNumberOfElements())]

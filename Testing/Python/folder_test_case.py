@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A test with a folder of its own, for files that it writes."""
+"""Test cases with a temporary folder."""
 
 import os
 import tempfile
@@ -17,14 +17,14 @@ class FolderTestCase(unittest.TestCase):
         return os.path.join(self.folder, name)
 
     def write(self, writer, name, image):
-        """Have a writer of VTK write the image; returns the path."""
+        """Write an image with a VTK writer; return the path."""
         writer.SetFileName(self.path(name))
         writer.SetInputData(image)
         writer.Write()
         return self.path(name)
 
     def bytes_of(self, writer, name, image):
-        """What a writer of VTK writes of the image."""
+        """Return the content that a VTK writer writes for an image."""
         self.write(writer, name, image)
         return self.content(name)
 
@@ -42,7 +42,7 @@ class FolderTestCase(unittest.TestCase):
 
 
 class SharedFolderTestCase(FolderTestCase):
-    """A folder for all tests of the class, whose files take long to make."""
+    """A test case with one temporary folder for all tests of the class."""
 
     @classmethod
     def setUpClass(cls):
@@ -51,7 +51,7 @@ class SharedFolderTestCase(FolderTestCase):
         cls.folder = folder.name
 
     def setUp(self):
-        """It has none of its own."""
+        """Do not create a folder per test."""
 
     @classmethod
     def path(cls, name):

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Small files of medical formats for the tests of read_volume.py, written byte by byte.
+"""Small files of medical formats for tests of the readers, written byte by byte.
 
-Nothing of the reader is used here, so that a mistake in it cannot hide. Voxels are arrays
-[z, y, x], directions 3 x 3 with the index axes as columns.
+No code of the readers is used, so that the tests are independent. Voxels are arrays [z, y, x]; the
+columns of directions are the index axes.
 """
 
 import io
@@ -18,7 +18,7 @@ EXPLICIT, IMPLICIT = "1.2.840.10008.1.2.1", "1.2.840.10008.1.2"
 
 
 def meta_header(voxels, spacing, origin, directions):
-    """Header of a MetaImage with its voxels (short) behind it."""
+    """Return the header of a MetaImage with attached voxels (short)."""
     return "\n".join([
         "ObjectType = Image", "NDims = 3", "BinaryData = True", "BinaryDataByteOrderMSB = False",
         "CompressedData = False", f"TransformMatrix = {directions}",
@@ -29,7 +29,7 @@ def meta_header(voxels, spacing, origin, directions):
 
 
 def nrrd_header(voxels, spacing, origin, direction, encoding, endian):
-    """Header of a NRRD, without the empty line that ends it."""
+    """Return the header of a NRRD file, without the empty line at its end."""
     columns = (np.asarray(direction) * spacing).T
     return "\n".join([
         "NRRD0004", "# made by hand", f"type: {NRRD_TYPES[voxels.dtype.str[1:]]}", "dimension: 3",
@@ -40,7 +40,7 @@ def nrrd_header(voxels, spacing, origin, direction, encoding, endian):
 
 
 def nifti(voxels, spacing, sform=None, qfac=1, offset=(0, 0, 0), slope=1, intercept=0):
-    """A NIfTI-1 file of short voxels; the qform is the identity, moved by the offset."""
+    """Return a NIfTI-1 file of short voxels. The qform is the identity with an offset."""
     header = bytearray(352)
     sizes = voxels.shape[::-1]
     struct.pack_into("<i", header, 0, 348)
@@ -67,7 +67,7 @@ def mrc(voxels, spacing, mode=1, order=(1, 2, 3)):
 
 
 def archive_of(files):
-    """Packed, as InVesalius has its projects: of (name, bytes), in a folder."""
+    """Return a .tar.gz with files (name, bytes) in a folder, as InVesalius writes it."""
     packed = io.BytesIO()
     with tarfile.open(fileobj=packed, mode="w:gz") as archive:
         for name, data in files:
@@ -78,7 +78,7 @@ def archive_of(files):
 
 
 def inv3(voxels, spacing, **changes):
-    """An InVesalius project with nothing but its volume; changes are those of its matrix."""
+    """Return an InVesalius project with only a volume; `changes` applies to its matrix."""
     project = {"matrix": {"dtype": "int16", "filename": "matrix.dat",
                           "shape": list(voxels.shape), **changes},
                "spacing": [float(s) for s in spacing], "orientation": 1}
@@ -86,7 +86,7 @@ def inv3(voxels, spacing, **changes):
 
 
 def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", **changes):
-    """A DICOM file of one slice. syntax: explicit, implicit or the identifier of another one."""
+    """Return a DICOM file with one slice. syntax: explicit, implicit or a UID."""
     identifier = {"explicit": EXPLICIT, "implicit": IMPLICIT}.get(syntax, syntax)
     direction = np.asarray(direction)
     values = {"series": "1.2.3", "description": "head", "samples": 1, "slope": None,
@@ -96,7 +96,7 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
     elements = [
         (0x0008, 0x0016, "UI", values["kind"]),
         (0x0008, 0x103E, "LO", values["description"]),
-        # A nested sequence of undefined length, which the reader must step over.
+        # Nested sequence of undefined length, which the reader must skip.
         (0x0008, 0x1140, "SQ", struct.pack("<HHI", 0xFFFE, 0xE000, 0xFFFFFFFF)
          + element(0x0020, 0x000E, "UI", "9.9.9", syntax != "implicit")
          + struct.pack("<HHI", 0xFFFE, 0xE00D, 0) + struct.pack("<HHI", 0xFFFE, 0xE0DD, 0)),
@@ -124,12 +124,12 @@ def dicom_slice(pixels, number, spacing, origin, direction, syntax="explicit", *
 
 
 def decimal(numbers):
-    """Several numbers as DICOM writes them in text."""
+    """Return numbers as a DICOM decimal string."""
     return "\\".join(f"{n:g}" for n in numbers)
 
 
 def element(group, number, kind, value, explicit):
-    """One data element; kind is its two-letter value representation."""
+    """Return a data element; kind is its value representation."""
     if isinstance(value, int):
         value = struct.pack("<H", value)
     elif isinstance(value, str):

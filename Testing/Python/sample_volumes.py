@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A small volume whose surface is known, and scripts that are run on it."""
+"""A small volume with a known surface, and a function that runs scripts."""
 
 import os
 import subprocess
@@ -17,7 +17,7 @@ RING_VOLUME = 2 * np.pi ** 2 * MAJOR * MINOR ** 2 * np.prod(RING_SPACING)  # wor
 
 
 def ring_voxels(bright=200, dark=50):
-    """A ring (a torus of genus 1) in noise, uint8; index order z, y, x."""
+    """Return a noisy torus of genus 1, uint8 [z, y, x]."""
     z, y, x = np.indices((RING_SIZE,) * 3) - (RING_SIZE - 1) / 2
     inside = (np.hypot(x, y) - MAJOR) ** 2 + z ** 2 < MINOR ** 2
     noise = np.random.default_rng(3).normal(0, 5, inside.shape)
@@ -29,7 +29,7 @@ def make_image(voxels, spacing=(1, 1, 1)):
 
 
 def write_volume(path, voxels, spacing=(1, 1, 1)):
-    """A MetaImage; returns the path."""
+    """Write a MetaImage; return the path."""
     writer = vtkMetaImageWriter()
     writer.SetFileName(path)
     writer.SetInputData(make_image(voxels, spacing))
@@ -38,6 +38,6 @@ def write_volume(path, voxels, spacing=(1, 1, 1)):
 
 
 def run_script(name, *arguments, **options):
-    """Run a script of the project to its end."""
+    """Run a script of the project and return the completed process."""
     return subprocess.run([sys.executable, os.path.join(ROOT, name), *arguments],
                           capture_output=True, text=True, check=False, timeout=1200, **options)

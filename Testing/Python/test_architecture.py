@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Includes keep to the rooms of Documentation/architecture.md, and folders to its sizes. Needs no
-build, and no VTK."""
+"""Tests that includes, terms and sizes of folders are those of Documentation/architecture.md. Requires
+no build and no VTK."""
 
 import os
 import re
@@ -20,14 +20,14 @@ def read(path):
 
 
 def table_below(heading):
-    """The names in the cells of the rows of the first table below a heading of the page."""
+    """Return the names in the cells of the first table below a heading of the page."""
     section = re.split(r"^## .*$", read(PAGE).split(f"## {heading}\n", 1)[1], flags=re.M)[0]
     rows = re.findall(r"^\|(.*)\|$", section, flags=re.M)
     return [[re.findall(r"`([^`]+)`", cell) for cell in row.split("|")] for row in rows[2:]]
 
 
 def rooms_of_the_page():
-    """What the rooms may include, in the order of the page: those of the core, then the others."""
+    """Return the rooms that each room may include, in the order of the page."""
     may_include = {}
     for room, below, *_ in table_below("Rooms of the core"):
         may_include["Core/" + room[0]] = {"Core/" + name for name in below}
@@ -37,8 +37,7 @@ def rooms_of_the_page():
 
 
 class RoomsTest(unittest.TestCase):
-    def test_rooms_include_those_that_they_may(self):
-        """And nothing else of the project: no file by a shorter path, and no filter."""
+    def test_includes_are_allowed(self):
         may_include = rooms_of_the_page()
         sources = {os.path.relpath(os.path.join(folder, name), FILTERS)
                    for folder, _, names in os.walk(FILTERS) for name in names
@@ -59,9 +58,25 @@ class RoomsTest(unittest.TestCase):
         self.assertEqual(wrong, [])
 
 
+class TermsTest(unittest.TestCase):
+    def test_words_that_terms_replace_are_not_used(self):
+        """In no text file but the page that lists them and the changelog, which names old ones."""
+        words = [word for row in table_below("Terms") for word in row[-1]]
+        self.assertGreater(len(words), 20)
+        pattern = re.compile("|".join(rf"\b{word}\b" for word in words).replace(" ", r"[\s*/#]+"))
+        texts = [os.path.join(top, name) for top, folders, names in os.walk(ROOT)
+                 for name in names if name.endswith((*COUNTED, ".md", ".yml", ".toml", ".ui"))
+                 if not re.search(r"/(build|\.\w+)(/|$)", top[len(ROOT):])]
+        texts = [path for path in texts if path != PAGE and os.path.basename(path) != "CHANGELOG.md"]
+        found = [f"{os.path.relpath(path, ROOT)}: {match.group(0)}"
+                 for path in sorted(texts) for match in pattern.finditer(read(path))]
+        self.assertEqual(found, [], "use the term in the first column of the table")
+
+
 class SizesTest(unittest.TestCase):
     def sizes_of(self, folder):
-        """Lines of all files that count, and statements of C++: semicolons outside comments."""
+        """Return the lines of all counted files, and the statements of C++ (semicolons outside
+        comments)."""
         texts = [(name, read(os.path.join(top, name)))
                  for top, _, names in os.walk(os.path.join(ROOT, folder)) for name in names
                  if name.endswith(COUNTED)]
@@ -69,7 +84,7 @@ class SizesTest(unittest.TestCase):
                          for name, text in texts if name.endswith((".h", ".cxx")))
         return sum(text.count("\n") for _, text in texts), statements
 
-    def test_folders_have_at_most_their_lines_and_statements(self):
+    def test_folders_respect_size_limits(self):
         section = read(PAGE).split("## Sizes\n", 1)[1]
         rows = re.findall(r"^\| `([\w/]+)` \| ([\d,]+) \| ([\d,]+) \|", section, flags=re.M)
         limits = {folder: tuple(int(number.replace(",", "")) for number in numbers)

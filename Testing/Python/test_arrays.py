@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumic.surface and volumic.labels: arrays in, surfaces out, errors as exceptions."""
+"""Tests of volumic.surface and volumic.labels: results, files and exceptions."""
 
 import os
 import pickle
@@ -24,7 +24,7 @@ from vtk_files import read as read_file
 
 
 def volume_of(surface):
-    """Enclosed volume, by the divergence theorem."""
+    """Return the enclosed volume by the divergence theorem."""
     a, b, c = (np.asarray(surface.points, float)[surface.triangles[:, k]] for k in range(3))
     return (a * np.cross(b, c)).sum() / 6
 
@@ -51,13 +51,13 @@ class SurfaceTest(unittest.TestCase):
         self.assertAlmostEqual(volume_of(ring), ring.report["Volume"], delta=0.01)
         self.assertAlmostEqual(volume_of(ring) / RING_VOLUME, 1, delta=0.1)
 
-    def test_axes_are_in_their_order(self):
+    def test_axis_order(self):
         low, high = self.ring.points.min(axis=0), self.ring.points.max(axis=0)
         middle = np.array((10, 20, 30)) + 19.5 * np.array(RING_SPACING)
         np.testing.assert_allclose((low + high) / 2, middle, atol=0.5)
-        self.assertLess(high[2] - low[2], 0.6 * (high[0] - low[0]))  # the ring lies across z
+        self.assertLess(high[2] - low[2], 0.6 * (high[0] - low[0]))  # torus in the xy plane
 
-    def test_it_is_what_the_filter_makes(self):
+    def test_result_equals_filter_output(self):
         algorithm = volumic.vtkVolumeToSurface()
         algorithm.SetInputData(arrays.make_image(ring_voxels(), RING_SPACING, (10, 20, 30), None,
                                              (0, 0, 0)))
@@ -66,18 +66,17 @@ class SurfaceTest(unittest.TestCase):
         points = vtk_to_numpy(algorithm.GetOutput().GetPoints().GetData())
         self.assertEqual(points.tobytes(), self.ring.points.tobytes())
 
-    def test_a_volume_of_read(self):
-        """Its position comes along; a spacing beside it is refused."""
+    def test_volume_defines_its_position(self):
         volume = Volume(ring_voxels(), RING_SPACING, (10, 20, 30), unit="mm")
         self.assertEqual(volumic.surface(volume, 125.5).points.tobytes(), self.ring.points.tobytes())
         array, spacing, origin, direction, space, unit, names = volume
         self.assertEqual((array.shape, spacing, unit, space, names),
                          (ring_voxels().shape, tuple(RING_SPACING), "mm", "", {}))
         self.assertEqual((origin, direction.tolist()), ((10, 20, 30), np.eye(3).tolist()))
-        with self.assertRaisesRegex(TypeError, "of its own"):
+        with self.assertRaisesRegex(TypeError, "remove spacing"):
             volumic.surface(volume, 125.5, spacing=(1, 1, 1))
 
-    def test_what_is_not_finite_or_too_far_is_refused(self):
+    def test_invalid_positions_and_iso_values_raise(self):
         for reason, iso, more in (
                 ("iso is nan", np.nan, {}), ("iso is inf", np.inf, {}),
                 ("origin nan", 125.5, {"origin": (np.nan, 0, 0)}),
@@ -86,7 +85,7 @@ class SurfaceTest(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, reason):
                 volumic.surface(ring_voxels(), iso, **more)
 
-    def test_results_come_back_from_processes(self):
+    def test_results_can_be_pickled(self):
         again = pickle.loads(pickle.dumps(self.ring))
         self.assertEqual(again.points.tobytes(), self.ring.points.tobytes())
         self.assertEqual((again.report, list(again.arrays)), (self.ring.report, list(self.ring.arrays)))
@@ -95,7 +94,7 @@ class SurfaceTest(unittest.TestCase):
         self.assertEqual(list(again), [3, 7])
         self.assertEqual(again[7].points.tobytes(), balls[7].points.tobytes())
 
-    def test_what_dir_and_repr_tell(self):
+    def test_dir_and_repr(self):
         self.assertLess({"surface", "labels", "read"}, set(dir(volumic)))
         self.assertRegex(repr(self.ring), rf"{len(self.ring.points)} points, "
                          rf"{len(self.ring.triangles)} triangles, components 1, genus 1, volume \d")
@@ -106,7 +105,7 @@ class SurfaceTest(unittest.TestCase):
         volumic.surface(ring_voxels() + 1, 125.5)
         np.testing.assert_array_equal(points, copy)
 
-    def test_start_direction_and_other_types(self):
+    def test_start_direction_and_scalar_types(self):
         voxels = ring_voxels()
         whole = volumic.surface(voxels, 125.5, start=(1, 2, 3))
         np.testing.assert_allclose(whole.points.mean(axis=0), 19.5 + np.array((1, 2, 3)), atol=0.5)
@@ -119,20 +118,19 @@ class SurfaceTest(unittest.TestCase):
             mask = volumic.surface(voxels > 125, 0.5)
         self.assertEqual(mask.report["Genus"], 1)
 
-    def test_a_range_of_values(self):
-        """All but the ring: of values less than it has."""
+    def test_upper_value_selects_a_range(self):
         around = volumic.surface(ring_voxels(), 2 * ring_voxels().min() - 125.5, UpperValue=125.5)
         dark = volumic.surface(ring_voxels(), 125.5, ObjectIsBright=False, Recovery=2)
         self.assertAlmostEqual(around.report["Volume"] / dark.report["Volume"], 1, delta=0.01)
 
-    def test_without_an_iso_value_it_is_guessed_and_told(self):
+    def test_default_iso_value_is_otsu_with_warning(self):
         with self.assertWarnsRegex(UserWarning, "Otsu"):
             ring = volumic.surface(ring_voxels())
         self.assertIn("Otsu", ring.report["Warnings"][0])
         self.assertEqual(ring.report["Genus"], 1)
 
-    def test_refused(self):
-        for error, words, call in (
+    def test_invalid_arguments_raise(self):
+        for error, message, call in (
                 (TypeError, "no property finestLevel; did you mean FinestLevel",
                  lambda: volumic.surface(ring_voxels(), 125.5, finestLevel=1)),
                 (TypeError, "FinestLevel='x': ",
@@ -144,8 +142,8 @@ class SurfaceTest(unittest.TestCase):
                  lambda: volumic.surface(ring_voxels(), UpperValue=9)),
                 (arrays.FilterError, "^Iso Value is 7777, outside the range",
                  lambda: volumic.surface(ring_voxels(), 7777))):
-            with self.subTest(words):
-                with self.assertRaisesRegex(error, words):
+            with self.subTest(message):
+                with self.assertRaisesRegex(error, message):
                     call()
 
     def test_nothing_is_printed(self):
@@ -170,12 +168,12 @@ class LabelsTest(unittest.TestCase):
         self.assertEqual(list(one), [7])
         self.assertEqual(one[7].points.tobytes(), balls[7].points.tobytes())
 
-    def test_merged_ones_are_one(self):
+    def test_merge_returns_one_surface(self):
         merged = volumic.labels(two_balls(), Merge=True)
         self.assertEqual(list(merged), [3])
         self.assertEqual(merged[3].report["Label"], [3, 7])
 
-    def test_refused(self):
+    def test_invalid_arguments_raise(self):
         with self.assertRaisesRegex(arrays.FilterError, "has no label 5; it has 0, 3, 7"):
             volumic.labels(two_balls(), [5])
         with self.assertRaisesRegex(TypeError, "mean Smoothing"):
@@ -198,10 +196,10 @@ class FilesTest(FolderTestCase):
             there = reader.GetOutput()
             self.assertEqual(there.GetNumberOfPolys(), triangles)
             np.testing.assert_allclose(there.GetBounds(), self.ball.to_vtk().GetBounds(), atol=1e-5)
-        with self.assertRaisesRegex(ValueError, "'.off' is no format of surfaces; there are .vtp"):
+        with self.assertRaisesRegex(ValueError, "'.off' is not a surface format; use one of .vtp"):
             self.ball.save(self.path("ball.off"))
 
-    def test_the_former_file_stays_where_writing_fails(self):
+    def test_failed_write_keeps_existing_file(self):
         path = self.write_text("ball.vtp", "former")
         with unittest.mock.patch("os.replace", side_effect=OSError("no")):
             with self.assertRaises(OSError):
@@ -209,7 +207,7 @@ class FilesTest(FolderTestCase):
         self.assertEqual(self.content("ball.vtp"), b"former")
         self.assertEqual(os.listdir(self.folder), ["ball.vtp"])
 
-    def test_all_of_them(self):
+    def test_save_all_labels(self):
         balls = volumic.labels(two_balls())
         balls.save(self.path("balls"))
         self.assertEqual(sorted(os.listdir(self.path("balls"))), ["label-3.vtp", "label-7.vtp"])

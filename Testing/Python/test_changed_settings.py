@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""A filter that has run starts again when a property changes: every property is changed in turn, as
-the wrapped classes list them."""
+"""Tests that changing any property of a filter after a run triggers a new run."""
 
 import unittest
 
@@ -11,10 +10,10 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
 from volumic import vtkDeformableSurface, vtkVolumeToSurface
 
 SIZE = 28
-# The last run serves, or goes on.
-SERVED = {"FinestLevel", "Preview", "TimeLimit", "NumberOfThreads", "MemoryLimit",
-          "ScratchDirectory", "Resume", "Profile", "ShowLevels"}
-# Where half as much again, or the next number, is no legal value, or none that is another one.
+# Properties that reuse or resume the last run.
+REUSING = {"FinestLevel", "Preview", "TimeLimit", "NumberOfThreads", "MemoryLimit",
+           "ScratchDirectory", "Resume", "Profile", "ShowLevels"}
+# Values of properties for which another() yields no valid or no different value.
 VALUES = {"SamplingRatio": 0.9, "CoarsestLevel": 1, "EdgeLength": 1.2, "Tolerance": .1,
           "MaximumEdgeLength": 5., "Gradation": .1, "SeedRadius": 3., "NumberOfLevels": 2,
           "ReductionFactor": 1.8, "SelectedComponent": 1, "Metric": 0, "Recovery": 0,
@@ -36,7 +35,7 @@ def image_of_a_ball():
 
 
 def properties():
-    """Names of all that both classes set and get themselves."""
+    """Return the names of all properties of both classes."""
     return sorted(
         name[3:] for class_ in (vtkVolumeToSurface, vtkDeformableSurface)
         for name in vars(class_)
@@ -76,8 +75,8 @@ class ChangedSettingsTest(unittest.TestCase):
         image = image_of_a_ball()
         names = properties()
         self.assertGreater(len(names), 35)
-        self.assertEqual(SERVED - set(names), set())
-        for name in set(names) - SERVED:
+        self.assertEqual(REUSING - set(names), set())
+        for name in set(names) - REUSING:
             with self.subTest(name):
                 filter_ = filter_that_has_run(image)
                 value = getattr(filter_, "Get" + name)()

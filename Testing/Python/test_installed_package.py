@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The Python package `volumic` as it is installed: what a user's script relies on."""
+"""Tests of the installed Python package `volumic`."""
 
 import os
 import re
@@ -24,7 +24,7 @@ PREFIX = os.environ["VOLUMIC_TEST_INSTALL_PREFIX"]
 
 
 def image_of(voxels, spacing=(1, 1, 1)):
-    """vtkImageData with the voxels[z, y, x] as active scalars named `density`."""
+    """Return a vtkImageData with voxels [z, y, x] as active scalars `density`."""
     scalars = numpy_to_vtk(voxels.ravel(), deep=True)
     scalars.SetName("density")
     image = vtkImageData()
@@ -39,16 +39,16 @@ def voxels_of(image):
 
 
 class PackageTest(unittest.TestCase):
-    def test_it_is_the_installed_one(self):
+    def test_installed_package_is_imported(self):
         self.assertTrue(os.path.realpath(volumic.__file__).startswith(os.path.realpath(PREFIX)))
 
-    def test_classes_come_without_importing_vtk_first(self):
+    def test_import_without_importing_vtk_first(self):
         code = "from volumic import vtkImagePyramid; print(vtkImagePyramid().GetClassName())"
         printed = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
         self.assertEqual(printed.stdout.decode().strip(), "vtkImagePyramid")
 
-    def refusal(self, *path):
-        """How the import ends where Python finds nothing but these folders."""
+    def import_error(self, *path):
+        """Return the last line of the error of an import with only these folders in the path."""
         code = "import sys; sys.path[:0] = sys.argv[1:]; import volumic"
         package = os.path.dirname(os.path.dirname(volumic.__file__))
         process = subprocess.run([sys.executable, "-I", "-S", "-c", code, *path, package],
@@ -56,10 +56,10 @@ class PackageTest(unittest.TestCase):
         self.assertEqual(process.returncode, 1, process.stderr)
         return process.stderr.splitlines()[-1]
 
-    def test_without_vtk_the_import_says_so(self):
-        self.assertIn("ImportError: volumic needs vtkmodules", self.refusal())
+    def test_import_without_vtk_raises(self):
+        self.assertIn("ImportError: volumic needs vtkmodules", self.import_error())
 
-    def test_another_vtk_is_refused(self):
+    def test_import_with_other_vtk_version_raises(self):
         with tempfile.TemporaryDirectory() as folder:
             os.mkdir(os.path.join(folder, "vtkmodules"))
             for name, text in (("__init__", "__version__ = '8.90.1'"),
@@ -67,10 +67,10 @@ class PackageTest(unittest.TestCase):
                 with open(f"{folder}/vtkmodules/{name}.py", "w", encoding="utf-8") as file:
                     file.write(text)
             ours = ".".join(vtkmodules.__version__.split(".")[:2])
-            self.assertRegex(self.refusal(folder),
+            self.assertRegex(self.import_error(folder),
                              rf"built for VTK {ours}, .* VTK 8\.90\.1 in {folder}")
 
-    def test_the_command_finds_the_package_where_the_prefix_was_moved_to(self):
+    def test_command_works_after_moving_the_prefix(self):
         with tempfile.TemporaryDirectory() as folder:
             moved = os.path.join(folder, "moved")
             shutil.copytree(PREFIX, moved, symlinks=True)
@@ -80,7 +80,7 @@ class PackageTest(unittest.TestCase):
                                          capture_output=True, text=True, env={}).stdout
                 self.assertIn(f"volumic {volumic.__version__} ", printed)
 
-    def test_help_of_the_package_names_every_class(self):
+    def test_docstring_lists_every_class(self):
         for name in dir(volumic):
             if hasattr(getattr(volumic, name), "GetOutputPort"):
                 self.assertIn(name, volumic.__doc__)
@@ -104,7 +104,7 @@ class PyramidTest(unittest.TestCase):
             self.assertIsInstance(self.pyramid.GetOutput(), vtkMultiBlockDataSet)
             self.assertIsInstance(self.pyramid.GetOutputDataObject(0), vtkMultiBlockDataSet)
 
-    def test_numpy_goes_in_and_out(self):
+    def test_numpy_input_and_output(self):
         random = np.random.default_rng(4)
         voxels = random.integers(-1000, 1000, (24, 25, 26)).astype("i2")
         output = self.output_of(voxels)
@@ -128,7 +128,7 @@ class SurfaceTest(unittest.TestCase):
             self.errors.append(text)
 
         self.surface.AddObserver("ErrorEvent", keep)
-        self.surface.GetExecutive().AddObserver("ErrorEvent", keep)  # which has nothing to add
+        self.surface.GetExecutive().AddObserver("ErrorEvent", keep)  # adds no message
         z, y, x = np.indices((self.SIZE,) * 3) - (self.SIZE - 1) / 2
         inside = np.clip(self.RADIUS - np.sqrt(x * x + y * y + z * z) + 0.5, 0, 1)
         self.surface.SetInputData(image_of((200 * inside).astype("f4")))
@@ -138,7 +138,7 @@ class SurfaceTest(unittest.TestCase):
         self.surface.Update()
         return self.surface.GetOutput().GetFieldData().GetArray("Area").GetValue(0)
 
-    def test_help_explains_every_property(self):
+    def test_every_property_has_a_docstring(self):
         for kind in (vtkDeformableSurface, vtkImagePyramid, vtkVolumeToSurface):
             names = [name for name in vars(kind)
                      if name.startswith("Set") and hasattr(kind, "Get" + name[3:])]
@@ -148,16 +148,16 @@ class SurfaceTest(unittest.TestCase):
                 signature, _, explanation = getattr(kind, name).__doc__.partition("\n\n")
                 self.assertTrue(explanation.strip(), signature)
 
-    def test_positions(self):
+    def test_seed_and_attracting_positions(self):
         middle = [(self.SIZE - 1) / 2] * 3
         self.surface.SetInitializationToSeeds()
         self.surface.AddSeedPosition(*middle)
-        place = [0.0] * 3
-        self.surface.GetSeedPosition(0, place)
-        self.assertEqual(place, middle)
+        position = [0.0] * 3
+        self.surface.GetSeedPosition(0, position)
+        self.assertEqual(position, middle)
         area = self.area()
         self.assertAlmostEqual(area / (4 * np.pi * self.RADIUS ** 2), 1, delta=0.05)
-        # Just outside the ball: the surface comes out to it.
+        # A point outside the ball attracts the surface.
         self.surface.AddAttractingPosition(middle[0] + self.RADIUS + 1.5, *middle[1:])
         self.surface.Update()
         self.assertEqual(self.surface.GetNumberOfAttractingPositions(), 1)
@@ -169,7 +169,7 @@ class SurfaceTest(unittest.TestCase):
         self.surface.Update()
         self.assertIn("Seed Positions: point 1 (-50, 0, 0) lies outside", self.errors[0])
 
-    def test_the_error_code_is_that_of_the_last_run(self):
+    def test_error_code_is_reset_by_each_run(self):
         for iso, code, blocks in ((self.ISO, 0, 3), (1000, vtkErrorCode.UserError, 0),
                                   (self.ISO, 0, 3)):
             self.surface.SetIsoValue(iso)

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumic.ome_zarr: images, levels and label maps of OME-Zarr, with their coordinates."""
+"""Tests of volumic.ome_zarr: images, levels and label maps, and their coordinates."""
 
 import os
 import pickle
@@ -42,7 +42,7 @@ def describe(group, names, levels, **more):
 
 
 def write_labels(path, name, voxels):
-    """An image of labels only."""
+    """Write an image that has only labels."""
     labels = zarr.open_group(path, mode="w").create_group("labels")
     labels.attrs["labels"] = [name]
     group = labels.create_group(name)
@@ -70,7 +70,7 @@ class OmeZarrTest(FolderTestCase):
         add_array(cells, "0", (ring > 125).astype("u4") * 5)
         describe(cells, "zyx", [("0", [{"type": "scale", "scale": [1, 1, 1]}])])
 
-    def test_levels_and_their_coordinates(self):
+    def test_levels_and_coordinates(self):
         volume = ome_zarr.open(self.path("scan.zarr"), channel=1)
         self.assertEqual((volume.shape, volume.chunks), ((40, 40, 40), (16, 16, 16)))
         self.assertEqual((volume.spacing, volume.origin), ((1, 0.5, 1.5), (10, 5, 15)))
@@ -83,21 +83,21 @@ class OmeZarrTest(FolderTestCase):
         surface = volumic.surface(volume, 125.5, spacing=volume.spacing, origin=volume.origin)
         np.testing.assert_allclose(surface.points.mean(axis=0), [29.5, 14.75, 44.25], atol=0.5)
 
-    def test_label_maps_are_the_source_of_jobs(self):
+    def test_label_map_as_source_of_a_job(self):
         self.assertEqual(ome_zarr.label_names(self.path("scan.zarr")), ["cells"])
         cells = ome_zarr.open(self.path("scan.zarr"), label="cells")
         cells = pickle.loads(pickle.dumps(cells))  # as workers get it
         row, = tasks.Job(cells, self.path("meshes"), formats=["precomputed"]).run()
         self.assertEqual((row["Label"], row["Voxels"]), (5, np.count_nonzero(ring_voxels() > 125)))
 
-    def test_what_fsspec_opens(self):
+    def test_fsspec_urls(self):
         there = fsspec.filesystem("memory")
         there.put(self.path("scan.zarr"), "/scan.zarr", recursive=True)
         self.addCleanup(there.rm, "/scan.zarr", recursive=True)
         cells = ome_zarr.open("memory://scan.zarr", label="cells")
         self.assertEqual(np.unique(cells[:]).tolist(), [0, 5])
 
-    def test_versions_before_and_after(self):
+    def test_other_versions_of_ome_zarr(self):
         old = zarr.open_group(self.path("old.zarr"), mode="w")
         add_array(old, "a", ring_voxels())
         old.attrs["multiscales"] = [{"datasets": [{"path": "a"}]}]
@@ -108,7 +108,7 @@ class OmeZarrTest(FolderTestCase):
         old.attrs["ome"] = {"version": "0.5", "multiscales": multiscales}
         self.assertEqual(ome_zarr.open(self.path("old.zarr")).spacing, (1, 2, 3))
 
-    def test_indices_are_those_of_numpy(self):
+    def test_numpy_indexing(self):
         volume = ome_zarr.open(self.path("scan.zarr"), channel=1)
         index = np.s_
         for key in (5, index[3:9], index[..., 5], index[..., 3:9], index[3, ..., 5], index[2:4, ...],
@@ -116,7 +116,7 @@ class OmeZarrTest(FolderTestCase):
             with self.subTest(key=key):
                 np.testing.assert_array_equal(volume[key], ring_voxels()[key])
         for key in (None, [1, 2], (1, 2, 3, 4), (..., ...), 2.5, True):
-            with self.subTest(key=key), self.assertRaisesRegex(IndexError, "integers, slices"):
+            with self.subTest(key=key), self.assertRaisesRegex(IndexError, "use integers, slices"):
                 volume[key]  # pylint: disable=pointless-statement
 
     def test_axes_in_another_order(self):
@@ -151,39 +151,39 @@ class OmeZarrTest(FolderTestCase):
         with self.assertRaisesRegex(ValueError, "units of the axes cannot be converted"):
             ome_zarr.open(self.path("scan.zarr/units"))
 
-    def test_chunks_without_a_file(self):
+    def test_missing_chunks_are_counted(self):
         volume = ome_zarr.open(self.path("scan.zarr"), channel=1)
         self.assertEqual(volume.missing_chunks(), (0, 27))
         name = "0.1.2.0.1" if os.path.exists(self.path("scan.zarr/0/0.1.2.0.1")) else "0/1/2/0/1"
         os.remove(self.path("scan.zarr/0/" + name))
         self.assertEqual(volume.missing_chunks(), (1, 27))
 
-    def test_refused(self):
+    def test_invalid_arguments_raise(self):
         path = self.path("scan.zarr")
-        for words, call in (
-                ("scan.zarr/0 is the array of a level; give the group that has it, .*scan.zarr$",
+        for message, call in (
+                ("scan.zarr/0 is the array of a level; open the group that contains it, .*scan.zarr$",
                  lambda: ome_zarr.open(path + "/0")),
                 ("no index 3 along t; it has no such axis",
                  lambda: ome_zarr.open(path, label="cells", time=3)),
-                ("none.zarr: there is no group", lambda: ome_zarr.open(self.path("none.zarr"))),
+                ("none.zarr: not a Zarr group", lambda: ome_zarr.open(self.path("none.zarr"))),
                 ("no level 2; it has 0 to 1", lambda: ome_zarr.open(path, 2)),
-                ("no labels nuclei; it has cells", lambda: ome_zarr.open(path, label="nuclei")),
+                ("no label map nuclei; it has cells", lambda: ome_zarr.open(path, label="nuclei")),
                 ("no index 2 along c; it has 0 to 1", lambda: ome_zarr.open(path, channel=2)),
-                ("no multiscales; it has cells: append", lambda: ome_zarr.open(path + "/labels"))):
-            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+                ("no multiscales; append one of cells", lambda: ome_zarr.open(path + "/labels"))):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 call()
-        for names, steps, words in (
+        for names, steps, message in (
                 ("tcwyx", [], "axes t, c, w, y, x .* must have z, y and x"),
-                ("tazyx", [], "2 images along its axis a; copy one"),
+                ("tazyx", [], "2 images along the unsupported axis a; copy one"),
                 ("tczyx", [{"type": "affine"}], "affine'} is not supported"),
                 ("tczyx", [{"type": "scale", "scale": [1, 1, 1]}], "with 5 numbers")):
             describe(self.root, names, [("0", steps)])
-            with self.subTest(words), self.assertRaisesRegex(ValueError, words):
+            with self.subTest(message), self.assertRaisesRegex(ValueError, message):
                 ome_zarr.open(path)
 
 
 class WithoutZarrTest(unittest.TestCase):
-    def test_it_tells(self):
+    def test_open_raises_import_error(self):
         with unittest.mock.patch.dict(sys.modules, zarr=None):
             with self.assertRaisesRegex(ImportError, "Debian: python3-zarr"):
                 ome_zarr.open(os.sep)

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What Examples/quickstart.sh does after the build, the script that makes the documents' pictures, and
-the example that makes a video of an evolution, on a small volume. Needs a display."""
+"""Tests of the scripts that draw pictures: quickstart, documentation figures, video of an
+evolution. Require a display."""
 
 import csv
 import json
@@ -41,7 +41,7 @@ class QuickstartTest(SharedFolderTestCase):
             self.assertGreaterEqual(pixels.shape[1], 1200, name)
             self.assertGreater(pixels.std(), 12, name)
 
-    def test_the_data_can_be_read_again(self):
+    def test_volume_and_levels(self):
         image = read(self.path("volume.vti"))
         np.testing.assert_allclose(image.GetSpacing(), RING_SPACING)
         voxels = vtk_to_numpy(image.GetPointData().GetScalars())
@@ -52,7 +52,7 @@ class QuickstartTest(SharedFolderTestCase):
         counts = [levels.GetBlock(h).GetNumberOfPoints() for h in range(3)]
         self.assertEqual(counts, sorted(counts, reverse=True))
 
-    def test_the_surface_is_a_closed_ring_in_world_coordinates(self):
+    def test_surface_is_closed_torus_in_world_coordinates(self):
         surface = read(self.path("surface.vtp"))
         edges = vtkFeatureEdges()
         edges.SetInputData(surface)
@@ -67,7 +67,7 @@ class QuickstartTest(SharedFolderTestCase):
         np.testing.assert_allclose(
             high - low, 2 * np.array([outer, outer, MINOR * RING_SPACING[2]]), atol=1.5)
 
-    def test_the_report_and_the_history(self):
+    def test_report_and_history(self):
         report = json.loads(self.content("report.json"))
         self.assertEqual((report["components"], report["genus"]), (1, 1))
         self.assertAlmostEqual(report["volume"] / RING_VOLUME, 1, delta=0.1)
@@ -85,8 +85,8 @@ class ScriptTest(SharedFolderTestCase):
         cls.ring = write_volume(cls.path("s.mha"), ring_voxels(), RING_SPACING)
         cls.scan = (cls.ring, str(RING_ISO))
 
-    def refused(self, script, *cases):
-        """Each case: the exit code, the reason, arguments."""
+    def check_error(self, script, *cases):
+        """Check exit code and message. cases: (exit code, message, arguments)."""
         for code, reason, *arguments in cases:
             with self.subTest(reason):
                 run = run_script(script, *arguments)
@@ -96,9 +96,9 @@ class ScriptTest(SharedFolderTestCase):
 
 
 class FiguresTest(ScriptTest):
-    def test_every_picture(self):
+    def test_all_pictures(self):
         output = self.path("pictures")
-        # The others are like these, or like those that quickstart.py draws.
+        # Other pictures are similar, or drawn by pictures.py.
         of_skull = ["graded", "history", "evolution"]
         run = run_script(FIGURES, "--output", output, "--skull", *self.scan,
                          "--vessels", *self.scan, "--graded", *self.scan, "0.2", "--only",
@@ -112,11 +112,11 @@ class FiguresTest(ScriptTest):
             self.assertGreater(pixels.shape[1], 900, name)
             self.assertGreater(pixels.std(), 8, name)
 
-    def test_refused(self):
+    def test_errors(self):
         output = ("--output", self.path("none"), "--only")
-        self.refused(FIGURES, (2, "invalid choice", *output, "nothing"),
-                     (1, "none.vti", *output, "vessels", "--vessels", "none.vti", "3"),
-                     (1, "Iso Value", *output, "graded", "--skull", self.ring, "9999"))
+        self.check_error(FIGURES, (2, "invalid choice", *output, "nothing"),
+                         (1, "none.vti", *output, "vessels", "--vessels", "none.vti", "3"),
+                         (1, "Iso Value", *output, "graded", "--skull", self.ring, "9999"))
 
 
 class EvolutionTest(ScriptTest):
@@ -131,7 +131,7 @@ class EvolutionTest(ScriptTest):
         names = sorted(os.listdir(self.path("frames")))
         first, last = (read_pixels(self.path(f"frames/{names[i]}")) for i in (0, -1))
         self.assertEqual(first.shape, last.shape, "one size for all")
-        # Not black, and a body at first that is larger than the ring at last.
+        # The initial surface is larger than the final torus.
         light = [np.count_nonzero(picture.mean(axis=2) > 60) for picture in (first, last)]
         self.assertGreater(light[1], 1000)
         self.assertGreater(light[0], 1.5 * light[1])

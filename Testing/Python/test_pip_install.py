@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""`pip install` into an environment of its own: what comes of it works, and can be removed.
+"""Tests of `pip install` into a virtual environment.
 
-Skipped, with the reason, where something that it takes is missing. Needs no network.
+Skipped, with the reason, if a requirement is missing. Requires no network.
 """
 
 import importlib.util
@@ -17,7 +17,7 @@ SKIPPED = 77  # exit code
 SOURCE = Path(os.environ["VOLUMIC_SOURCE"])
 VTK_PACKAGES = os.environ["VOLUMIC_VTK_PACKAGES"]  # the folder of vtkmodules
 INSTALLED = Path(os.environ["VOLUMIC_TEST_INSTALL_PREFIX"])
-# Nothing of the build may be in the way of what pip installs.
+# Hide the build from the installed package.
 ENVIRONMENT = {name: value for name, value in os.environ.items()
                if name not in ("PYTHONPATH", "LD_LIBRARY_PATH", "PYTHONDONTWRITEBYTECODE")}
 ENVIRONMENT.update(CXX=os.environ["VOLUMIC_COMPILER"], PIP_NO_INDEX="1",
@@ -46,7 +46,8 @@ for array in (mesh.GetPoints().GetData(), mesh.GetPolys().GetConnectivityArray()
 
 
 def run(*command, check=True, **options):
-    """Its output; an AssertionError with what it said if it fails (with check)."""
+    """Return the output of a command. Raise AssertionError with the output if it fails (with
+    check)."""
     process = subprocess.run([str(word) for word in command], check=False, text=True,
                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                              stdin=subprocess.DEVNULL, **{"env": ENVIRONMENT, **options})
@@ -55,8 +56,8 @@ def run(*command, check=True, **options):
     return process.stdout
 
 
-def obstacle():
-    """Why this can't be run here, or None."""
+def skip_reason():
+    """Return why the test cannot run, or None."""
     for module, package in (("scikit_build_core", "python3-scikit-build-core"),
                             ("pip", "python3-pip"), ("ensurepip", "python3-venv")):
         if importlib.util.find_spec(module) is None:
@@ -77,7 +78,7 @@ class PipInstallTest(unittest.TestCase):
         run(sys.executable, "-m", "venv", "--system-site-packages", cls.folder / "env")
         cls.bin = cls.folder / "env" / "bin"
         cls.addClassCleanup(cls.uninstall)
-        # Kept, so that a second run of the test compiles nothing.
+        # The build folder is reused by later runs.
         print(cls.install(os.environ["VOLUMIC_PIP_BUILD"]))
         values = (9 - sum((n - 14.5) ** 2 for n in (x, y, z)) ** 0.5
                   for z in range(30) for y in range(30) for x in range(30))
@@ -93,7 +94,7 @@ class PipInstallTest(unittest.TestCase):
 
     @classmethod
     def uninstall(cls):
-        """Nothing may be left."""
+        """Uninstall, and check that no file remains."""
         run(cls.bin / "pip", "uninstall", "-y", "volumic")
         left = list((cls.folder / "env").rglob("*olumic*"))
         if left:
@@ -108,14 +109,41 @@ class PipInstallTest(unittest.TestCase):
         self.assertEqual(distribution, version)
         self.assertTrue(file.startswith(str(self.folder)), file)
 
-    def test_the_same_surface(self):
+    def test_requires_its_vtk(self):
+        """By pip if pip lists VTK, and always on import."""
+        output = run(self.bin / "python", "-c", """if True:
+            import importlib.metadata as m, vtkmodules
+            known = [d.version for d in m.distributions(name="vtk")]
+            print(vtkmodules.__version__, *known, sep="\\n")
+            print(*[r for r in m.requires("volumic") if "extra" not in r], sep="\\n")""")
+        version, *rest = output.split()
+        self.assertIn(rest, ([], [version, f"vtk=={version}"]))
+        for other in (version, version + "1"):  # found first, even of the same version
+            with tempfile.TemporaryDirectory() as folder:
+                Path(folder, "vtkmodules").mkdir()
+                Path(folder, "vtkmodules", "__init__.py").write_text(f"__version__ = '{other}'\n",
+                                                                     encoding="utf-8")
+                output = run(self.bin / "python", "-c", "import volumic", check=False,
+                             env={**ENVIRONMENT, "PYTHONPATH": folder})
+                self.assertRegex(output, f"built for VTK {version} in /.* finds VTK {other} in "
+                                         f"{folder}")
+
+    def test_record_matches_files(self):
+        run(self.bin / "python", "-c", """if True:
+            import base64, hashlib, importlib.metadata as m
+            for file in m.files("volumic"):
+                if file.hash and file.hash.mode == "sha256":
+                    digest = base64.urlsafe_b64encode(hashlib.sha256(file.read_binary()).digest())
+                    assert digest.rstrip(b"=").decode() == file.hash.value, file""")
+
+    def test_surface_is_bit_identical(self):
         ours = run(self.bin / "python", "-c", SCRIPT, cwd=self.folder)
         other = {**ENVIRONMENT, "PYTHONPATH": os.environ["PYTHONPATH"],
                  "LD_LIBRARY_PATH": os.environ["LD_LIBRARY_PATH"]}
         self.assertEqual(ours, run(sys.executable, "-c", SCRIPT, cwd=self.folder, env=other))
         self.assertGreater(int(ours.split()[0]), 100)
 
-    def test_the_program(self):
+    def test_command(self):
         self.assertIn(f"volumic {os.environ['VOLUMIC_VERSION']} ",
                       run(self.bin / "volumic", "--version"))
         surfaces = []
@@ -126,7 +154,7 @@ class PipInstallTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    reason = obstacle()
+    reason = skip_reason()
     if reason:
         print(f"Skipped: {reason}")
         sys.exit(SKIPPED)

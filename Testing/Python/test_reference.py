@@ -51,7 +51,7 @@ class ReferenceTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        if cls is not ReferenceTest:  # One run serves all classes.
+        if cls is not ReferenceTest:  # one run for all classes
             if not hasattr(ReferenceTest, "tables"):
                 ReferenceTest.setUpClass()
             return
@@ -89,7 +89,7 @@ class PropertiesTest(ReferenceTest):
                 else:
                     np.testing.assert_allclose(float(printed[name]), value, 1e-5, 0, name)
 
-    def test_page_has_all_classes(self):
+    def test_all_classes_are_documented(self):
         classes = [name for name in dir(volumic) if re.fullmatch(r"vtk[A-Z]\w+", name)
                    and hasattr(getattr(volumic, name), "GetOutputPort")]
         self.assertGreater(len(classes), 3)

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""volumic.tasks: surfaces of labels from crops, by whatever maps, with workers that are killed."""
+"""Tests of volumic.tasks: surfaces of labels from crops, in processes, on dask, with killed
+workers."""
 
 import concurrent.futures
 import csv
@@ -34,7 +35,7 @@ SPACING, ORIGIN = (0.3, 0.31, 0.4), (10.1, -5.2, 3.3)
 
 
 class Chunked:
-    """A map that says how much of it is read at a time."""
+    """A map with chunks that records the largest part read."""
 
     chunks = (32, 32, 16)
 
@@ -49,7 +50,8 @@ class Chunked:
 
 @functools.lru_cache()
 def cells():
-    """Labels that touch, by threes and fours, in a ball; its axes have different lengths."""
+    """Return adjacent labels in a ball, with junctions of three and four labels, on different axis
+    sizes."""
     z, y, x = np.indices((46, 41, 49)).astype("f4")
     centres = np.random.default_rng(5).uniform(4, 42, (12, 3))
     squares = np.stack([(x - a) ** 2 + (y - b) ** 2 + (z - c) ** 2 for a, b, c in centres])
@@ -59,13 +61,13 @@ def cells():
 
 
 def balls(count=8, size=96):
-    """Labels far from each other."""
+    """Return labels that are far apart."""
     z, y, x = np.indices((size, size, size)).astype("f4")
     voxels = np.zeros(x.shape, "u2")
     for label, (a, b, c) in enumerate(np.ndindex(2, 2, 2), 1):
         if label <= count:
-            place = [24.3 + 48 * p for p in (a, b, c)]
-            distance = np.hypot(np.hypot(x - place[0], y - place[1]), z - place[2])
+            position = [24.3 + 48 * p for p in (a, b, c)]
+            distance = np.hypot(np.hypot(x - position[0], y - position[1]), z - position[2])
             voxels[distance < 6 + label] = label
     return voxels
 
@@ -75,15 +77,15 @@ def job_of(voxels, folder, **settings):
 
 
 def bundle_of(job, voxels, label, **settings):
-    """{label: surface} of the crop of a bundle, by itself."""
+    """Return the surfaces of the bundle of a label, computed separately."""
     box, labels = next(bundle for bundle in job._plan() if label in bundle[1])
     x, y, z = (slice(*ends) for ends in box)
     return volumic.labels(voxels[z, y, x], labels, spacing=SPACING, origin=ORIGIN,
                           start=[begin for begin, _ in box], **settings)
 
 
-def die_once(folder, job, labels):
-    """Makes them, but the first time with label 3 the process ends, with a hidden folder beside."""
+def kill_once(folder, job, labels):
+    """Compute labels, but kill the process the first time label 3 is requested."""
     if 3 in labels:
         try:
             os.mkdir(os.path.join(folder, "died"))
@@ -102,7 +104,7 @@ class Meshes(list):
 
 
 def multilod_meshes(folder, label):
-    """Points and triangles of each level of detail, as Neuroglancer's page has them."""
+    """Return points and triangles of each level of detail, as Neuroglancer specifies the format."""
     with open(os.path.join(folder, f"{label}.index"), "rb") as file:
         manifest = file.read()
     with open(os.path.join(folder, str(label)), "rb") as file:
@@ -126,18 +128,18 @@ def multilod_meshes(folder, label):
                 header, content = file.read().split(b"end_header\n", 1)
         first += size
         vertices = int(header.split(b"element vertex ")[1].split()[0])
-        assert b"property int x" in header  # integers, and no quantization of Draco's
-        places = np.frombuffer(content, "<i4", 3 * vertices).reshape(-1, 3)
-        assert places.min() >= 0 and places.max() <= (65535 if level == 0 else 32768)
+        assert b"property int x" in header  # no quantization by Draco
+        coordinates = np.frombuffer(content, "<i4", 3 * vertices).reshape(-1, 3)
+        assert coordinates.min() >= 0 and coordinates.max() <= (65535 if level == 0 else 32768)
         faces = np.frombuffer(content, [("n", "u1"), ("corners", "<i4", 3)], -1, 12 * vertices)
-        meshes.append((origin + offsets[level] + shape * 2.0 ** level * (node + places / 65535.0),
+        meshes.append((origin + offsets[level] + shape * 2.0 ** level * (node + coordinates / 65535.0),
                        faces["corners"]))
     assert first == len(fragments)
     return meshes
 
 
-class SameBitsTest(SharedFolderTestCase):
-    """Of bundles of some labels: those of one worker are the reference."""
+class BitIdenticalTest(SharedFolderTestCase):
+    """Results are bit-identical to those of a serial job with bundles of some labels."""
 
     BUNDLE = 40 ** 3
 
@@ -153,7 +155,7 @@ class SameBitsTest(SharedFolderTestCase):
             self.assertTrue(self.content(os.path.join(folder, name))
                             == self.content(f"reference/{name}"), name)
 
-    def test_a_bundle_is_a_crop_meshed_as_one(self):
+    def test_bundle_equals_mesh_of_its_crop(self):
         plan = self.job._plan()
         self.assertGreater(len(plan), 2)
         self.assertEqual(sorted(sum((labels for _, labels in plan), [])),
@@ -164,23 +166,21 @@ class SameBitsTest(SharedFolderTestCase):
                                  surface.to_bytes(".vtp"))
                 self.assertEqual(surface.report["LabelVoxels"], (cells() == label).sum())
 
-    def test_one_bundle_is_the_whole_map(self):
+    def test_single_bundle_equals_whole_map(self):
         job_of(cells(), self.path("whole")).run()
         for label, surface in volumic.labels(cells(), spacing=SPACING, origin=ORIGIN).items():
             self.assertTrue(self.content(f"whole/label-{label}.vtp") == surface.to_bytes(".vtp"))
-            # Others are so near it that none gapes at its neighbours.
+            # Surfaces of other bundles are close, so that there are no gaps.
             points = points_of(read(self.path(f"reference/label-{label}.vtp")))
             self.assertLess(cKDTree(points).query(surface.points)[0].max(), max(SPACING))
 
-    def test_of_some_labels(self):
-        """Each as if all were made, also those that a killed worker left of a bundle."""
+    def test_selected_labels_and_resumed_bundle(self):
         job = job_of(cells(), self.path("some"), only=[5], bundle=self.BUNDLE)
         self.assertEqual([row["Label"] for row in job.run()], [5])
-        rest = job_of(cells(), self.path("some"), bundle=self.BUNDLE)
-        rest.run()
+        job_of(cells(), self.path("some"), bundle=self.BUNDLE).run()
         self.check_files("some")
 
-    def test_labels_apart_take_small_crops(self):
+    def test_distant_labels_use_small_crops(self):
         source = Chunked(balls())
         job = job_of(source, self.path("balls"), bundle=1)
         for block in job.blocks():
@@ -189,7 +189,7 @@ class SameBitsTest(SharedFolderTestCase):
         job.run()
         self.assertLess(source.largest, 0.25 * source.voxels.size)
 
-    def test_in_processes(self):
+    def test_process_pool(self):
         context = multiprocessing.get_context("spawn")
         with concurrent.futures.ProcessPoolExecutor(2, context) as executor:
             job_of(cells(), self.path("pool"), bundle=self.BUNDLE,
@@ -204,7 +204,7 @@ class SameBitsTest(SharedFolderTestCase):
                 distributed.Client(cluster) as client:
             client.run(os.chdir, self.folder)
             client.gather(client.map(job.count, job.blocks()))
-            make = functools.partial(die_once, self.folder, job)
+            make = functools.partial(kill_once, self.folder, job)
             client.gather(client.map(make, job.bundles()))
         self.assertTrue(os.path.isdir(self.path("died")))
         self.assertTrue(os.path.exists(os.path.join(job.folder, HIDDEN + "half")))
@@ -215,14 +215,14 @@ class SameBitsTest(SharedFolderTestCase):
         self.assertEqual(left, [])
         with open(self.path("made"), encoding="utf-8") as file:
             made = [int(line) for line in file]
-        self.assertEqual(sorted(made), self.job.labels())  # none of them twice
+        self.assertEqual(sorted(made), self.job.labels())  # each once
 
 
 class JobTest(FolderTestCase):
     def job(self, **settings):
         return job_of(Chunked(balls(3)), self.path("meshes"), **settings)
 
-    def test_it_goes_on_where_it_was_stopped(self):
+    def test_job_resumes(self):
         job = self.job(bundle=1)
         for block in job.blocks()[1:]:
             job.count(block)
@@ -231,7 +231,7 @@ class JobTest(FolderTestCase):
             job.bundles()
         job.count(0)
         job.make(job.bundles()[0])
-        with self.assertRaisesRegex(ValueError, "2 of 3 labels are not made yet"):
+        with self.assertRaisesRegex(ValueError, "2 of 3 labels are not computed"):
             job.finish()
         self.assertEqual([len(job.bundles(part, 2)) for part in (0, 1)], [1, 1])
         again = self.job(bundle=1, NumberOfThreads=1)
@@ -242,7 +242,7 @@ class JobTest(FolderTestCase):
         self.assertEqual(os.stat(self.path("meshes/label-3.vtp")).st_mtime_ns, before)
         self.assertEqual(self.job(bundle=1).bundles(), [])
 
-    def test_boxes_of_blocks_are_those_of_the_whole(self):
+    def test_extents_do_not_depend_on_blocks(self):
         for shape in ((96, 96, 96), (33, 65, 17)):
             voxels = balls(8)[:shape[0], :shape[1], :shape[2]]
             source = Chunked(voxels)
@@ -254,20 +254,20 @@ class JobTest(FolderTestCase):
                 boxes = job.boxes()
             self.assertEqual(boxes, arrays.label_boxes(voxels))
 
-    def test_refused(self):
-        for words, settings in (
+    def test_invalid_arguments_raise(self):
+        for message, settings in (
                 ("no property smoothing; did you mean Smoothing", {"smoothing": 1}),
-                ("Merge and periodic BoxFaces couple labels all over", {"Merge": True}),
-                ("Merge and periodic BoxFaces couple labels all over", {"BoxFaces": 2}),
-                ("TimeLimit would leave labels unfinished", {"TimeLimit": 3}),
-                ("'.off' is no format; there are .vtp.*multilod_draco", {"formats": [".off"]})):
-            with self.subTest(words), self.assertRaisesRegex((TypeError, ValueError), words):
+                ("Merge and periodic BoxFaces are not supported", {"Merge": True}),
+                ("Merge and periodic BoxFaces are not supported", {"BoxFaces": 2}),
+                ("TimeLimit is not supported for jobs", {"TimeLimit": 3}),
+                ("'.off' is not a format; use one of .vtp.*multilod_draco", {"formats": [".off"]})):
+            with self.subTest(message), self.assertRaisesRegex((TypeError, ValueError), message):
                 self.job(**settings)
         with self.assertRaisesRegex(ValueError, "the map has no label 9"):
             self.job(only=[9]).run()
-        with self.assertRaisesRegex(ValueError, r"label 3 .* are 46 x 46 x 40 voxels, more"):
+        with self.assertRaisesRegex(ValueError, "label 3 requires a crop of 46 x 46 x 40"):
             job_of(balls(3), self.path("small"), most=1000).run()
-        with self.assertRaisesRegex(ValueError, "is of a job with properties {}, not .*Smoothing"):
+        with self.assertRaisesRegex(ValueError, "results for properties {} instead of .*Smoothing"):
             self.job(Smoothing=1)
         with self.assertRaisesRegex(arrays.FilterError, "Smoothing is 99"):
             tasks.Job(balls(1), self.path("other"), Smoothing=99).run()
@@ -283,7 +283,7 @@ class JobTest(FolderTestCase):
             self.assertEqual(tasks.Job(balls(), self.path(f"m{margin}"), **settings)._margin(),
                              [margin] * 3)
 
-    def test_tables_and_meshes_of_viewers(self):
+    def test_table_and_precomputed_meshes(self):
         job = self.job(formats=["precomputed", ".stl"], nanometers=1000)
         rows = job.run()
         surface = bundle_of(job, balls(3), 2)[2]
@@ -308,7 +308,7 @@ class JobTest(FolderTestCase):
         np.testing.assert_array_equal(triangles, surface.triangles)
 
     @unittest.skipUnless(shutil.which("draco_encoder"), "no draco_encoder (Debian: draco)")
-    def test_levels_of_detail_for_neuroglancer(self):
+    def test_multilod_draco_meshes(self):
         job = job_of(balls(), self.path("meshes"), only=[8], formats=["multilod_draco"],
                      nanometers=1000, bundle=1)
         job.run()
@@ -320,16 +320,17 @@ class JobTest(FolderTestCase):
             with self.subTest(level=level):
                 surface = bundle_of(job, balls(), 8, FinestLevel=level)[8]
                 self.assertEqual(len(triangles), len(surface.triangles))
-                edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)  # closed and oriented:
+                # Closed and oriented.
+                edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
                 self.assertEqual(len(set(map(tuple, edges))), len(edges))
                 self.assertEqual(set(map(tuple, edges)), set(map(tuple, edges[:, ::-1])))
                 step = 2 * 2 ** level * np.ptp(1000 * surface.points, axis=0).max() / 65535
-                for place in points:
-                    nearest = np.abs(1000 * surface.points - place).max(axis=1).min()
+                for position in points:
+                    nearest = np.abs(1000 * surface.points - position).max(axis=1).min()
                     self.assertLess(nearest, step)
-                self.assertTrue(300 < scale / 3 ** (level / 2) < 600, scale)  # voxels: 300 and more
+                self.assertTrue(300 < scale / 3 ** (level / 2) < 600, scale)  # voxels: 300 to 400
         with unittest.mock.patch.object(shutil, "which", return_value=None), \
-                self.assertRaisesRegex(RuntimeError, "draco_encoder, which is missing"):
+                self.assertRaisesRegex(RuntimeError, "requires the program draco_encoder"):
             self.job(formats=["multilod_draco"])
 
     def test_quality_of_an_equilateral_triangle(self):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""The type stubs of the installed package say what its classes are: what editors go by."""
+"""Tests of the type stubs of the installed package."""
 
 import ast
 import inspect
@@ -17,9 +17,9 @@ import volumic
 FOLDER = Path(volumic.__file__).parent
 CLASSES = {name: value for name, value in vars(volumic).items() if inspect.isclass(value)}
 FUNCTIONS = {"labels", "read", "surface"}
-TYPED = ("arrays", "tasks", "neuroglancer")  # modules that users call, checked as a whole
+TYPED = ("arrays", "tasks", "neuroglancer")  # public modules, checked completely
 
-# A user's script. Comments tell what mypy says of the line: a type, or a kind of error.
+# A script for mypy. Comments state the expected output of a line: a type or an error code.
 SCRIPT = """
 import volumic
 from volumic import vtkDeformableSurface, vtkImagePyramid, vtkOtsuThreshold, vtkVolumeToSurface
@@ -49,7 +49,7 @@ volumic.vtkDeformedSurface()  # [attr-defined]
 
 
 def definitions(node):
-    """{name: [definitions]} of a module or a class of a stub."""
+    """Return the definitions in a module or class of a stub by name."""
     found = {}
     for part in node.body:
         if isinstance(part, ast.AnnAssign):
@@ -70,26 +70,26 @@ class StubsTest(unittest.TestCase):
                      definitions(parsed("vtkFiltersVolumic.pyi")).items()}
 
     def members(self, name):
-        """What the stub of a class says, and that of its base class if that is ours."""
+        """Return the members in the stub of a class and its base classes."""
         node = self.stubs[name]
         base = node.bases[0].id
         return {**(self.members(base) if base in self.stubs else {}), **definitions(node)}
 
-    def test_the_package_exports_the_classes(self):
+    def test_package_exports_classes(self):
         self.assertTrue((FOLDER / "py.typed").is_file())
         exported = {alias.asname for node in parsed("__init__.pyi").body
                     if isinstance(node, ast.ImportFrom) for alias in node.names}
         self.assertEqual(exported, FUNCTIONS.union(CLASSES))
         self.assertEqual(set(self.stubs), set(CLASSES))
 
-    def test_every_name_is_there_and_no_other(self):
+    def test_stubs_list_all_members(self):
         for name, value in CLASSES.items():
             with self.subTest(name):
                 there = {member for member in dir(value) if not member.startswith("_")}
-                said = {member for member in self.members(name) if not member.startswith("_")}
-                self.assertEqual(said, there)
+                listed = {member for member in self.members(name) if not member.startswith("_")}
+                self.assertEqual(listed, there)
 
-    def test_getters_give_what_the_stubs_say(self):
+    def test_getters_return_stub_types(self):
         for name, value in CLASSES.items():
             an_object = value()
             compared = 0
@@ -97,12 +97,12 @@ class StubsTest(unittest.TestCase):
                 for part in parts:
                     if not isinstance(part, ast.FunctionDef) or not member.startswith("Get"):
                         continue
-                    said = ast.unparse(part.returns)
+                    stub_type = ast.unparse(part.returns)
                     if len(part.args.args) != 1 or part.decorator_list:
                         continue
                     result = getattr(an_object, member)()
-                    if said in ("int", "float", "bool", "str") and result is not None:
-                        self.assertEqual(type(result).__name__, said, f"{name}.{member}")
+                    if stub_type in ("int", "float", "bool", "str") and result is not None:
+                        self.assertEqual(type(result).__name__, stub_type, f"{name}.{member}")
                         compared += 1
             self.assertGreater(compared, 10, name)
 
@@ -120,7 +120,7 @@ class StubsTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             site = Path(folder, "site", "volumic")
             shutil.copytree(FOLDER, site)
-            (site / "__init__.py").unlink()  # the stub has its place
+            (site / "__init__.py").unlink()  # replaced by the stub
             modules = [word for name in TYPED for word in ("-m", f"volumic.{name}")]
             self.assertEqual(mypy(*modules, "--follow-imports=skip"), "")
             Path(folder, "script.py").write_text(SCRIPT, encoding="utf-8")
@@ -131,11 +131,11 @@ class StubsTest(unittest.TestCase):
                 found.setdefault(int(number), []).append(text)
             for number, line in enumerate(SCRIPT.splitlines(), 1):
                 expected = line.partition("  # ")[2]
-                said = found.get(number, [])
+                reported = found.get(number, [])
                 if not expected:
-                    self.assertEqual(said, [], line)
+                    self.assertEqual(reported, [], line)
                 else:
-                    self.assertTrue(any(expected in text for text in said), f"{line}: {output}")
+                    self.assertTrue(any(expected in text for text in reported), f"{line}: {output}")
 
 
 if __name__ == "__main__":

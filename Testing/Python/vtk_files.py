@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is in files that VTK reads."""
+"""Readers of VTK files for tests."""
 
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCompositeDataSet
@@ -16,7 +16,7 @@ READERS = {"stl": vtkSTLReader, "ply": vtkPLYReader, "obj": vtkOBJReader,
 
 
 def read(path, reader=None):
-    """The data of a file: by its suffix, unless another reader is given."""
+    """Return the data of a file, read by its suffix or by the given reader."""
     reader = reader or READERS[path.rpartition(".")[2]]()
     reader.SetFileName(path)
     reader.Update()
@@ -24,14 +24,14 @@ def read(path, reader=None):
 
 
 def read_blocks(path):
-    """{name: surface}"""
+    """Return surfaces by block name."""
     blocks = read(path)
     return {blocks.GetMetaData(i).Get(vtkCompositeDataSet.NAME()): blocks.GetBlock(i)
             for i in range(blocks.GetNumberOfBlocks())}
 
 
 def read_pixels(path):
-    """[row, column, colour] of a picture."""
+    """Return the pixels [row, column, colour] of a picture."""
     image = read(path)
     width, height, _ = image.GetDimensions()
     return vtk_to_numpy(image.GetPointData().GetScalars()).reshape(height, width, -1)

@@ -4,8 +4,8 @@
 #include "LabelJudge.h"
 
 #include "JudgeInternals.h"
+#include "MisclassifiedVoxels.h"
 #include "SurfaceJudge.h"
-#include "WrongVoxels.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -150,7 +150,8 @@ DihedralVerdict JudgeDihedrals(const TriangleSurface& surface)
         { std::minmax({ surface.Triangles[t][c], surface.Triangles[t][(c + 1) % 3] }), t });
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b)
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& a, const Side& b)
     { return a.Edge != b.Edge ? a.Edge < b.Edge : a.Triangle < b.Triangle; });
   std::vector<double> angles;
   for (std::size_t s = 0; s < sides.size();)
@@ -179,7 +180,8 @@ DihedralVerdict JudgeDihedrals(const TriangleSurface& surface)
 }
 
 //------------------------------------------------------------------------------
-WrongVoxelVerdict JudgeVoxels(const TriangleSurface& surface, const LabelMap& map, int label)
+MisclassifiedVoxelVerdict JudgeVoxels(
+  const TriangleSurface& surface, const LabelMap& map, int label)
 {
   CheckSurface(surface);
   TriangleSurface inIndices = surface;
@@ -191,7 +193,7 @@ WrongVoxelVerdict JudgeVoxels(const TriangleSurface& surface, const LabelMap& ma
     }
   }
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, map.Size);
-  WrongVoxelVerdict verdict;
+  MisclassifiedVoxelVerdict verdict;
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
     const bool isOfLabel = map.Values[v] == label;

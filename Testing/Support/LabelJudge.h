@@ -23,9 +23,9 @@ struct TruthVerdict
 {
   double MeanAtVertices = 0.0;
   double MeanAtCentroids = 0.0;
-  double Largest = 0.0;       ///< of vertices and centroids
-  double MeanAngle = 0.0;     ///< degrees, between the normals of triangle and shape, by area
-  double VolumeError = 0.0;   ///< as a share of the shape's, positive where the surface has more
+  double Largest = 0.0;     ///< of vertices and centroids
+  double MeanAngle = 0.0;   ///< degrees, between the normals of triangle and shape, by area
+  double VolumeError = 0.0; ///< as a share of the shape's, positive where the surface has more
 };
 
 /** Throws std::invalid_argument for a shape without Distance. */
@@ -42,7 +42,7 @@ struct DihedralVerdict
 DihedralVerdict JudgeDihedrals(const TriangleSurface& surface);
 
 /** Voxels whose centres are on the wrong side. */
-struct WrongVoxelVerdict
+struct MisclassifiedVoxelVerdict
 {
   std::size_t Outside = 0; ///< of the label, but not enclosed
   std::size_t Inside = 0;  ///< of others, but enclosed
@@ -52,7 +52,8 @@ struct WrongVoxelVerdict
 };
 
 /** The surface is in the world of the map. */
-WrongVoxelVerdict JudgeVoxels(const TriangleSurface& surface, const LabelMap& map, int label);
+MisclassifiedVoxelVerdict JudgeVoxels(
+  const TriangleSurface& surface, const LabelMap& map, int label);
 
 } // namespace volumic::support
 

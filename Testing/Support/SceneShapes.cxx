@@ -16,7 +16,7 @@ using Vector = std::array<double, 3>;
 
 // Radius by which sharp convex rims are rounded: no mesh of edges of about a voxel can hold
 // sharper.
-constexpr double RimRounding = 2.0;
+constexpr double LinkRounding = 2.0;
 
 //------------------------------------------------------------------------------
 // Signed distances (negative inside), at least near the surface.
@@ -148,7 +148,7 @@ SceneShape MakeBoxWithTwoTunnels()
     const double box = RoundedBox(p, { 26.0, 16.0, 13.0 }, 4.0);
     const double left = Capsule(p, { -11.0, -3.0, -40.0 }, { -11.0, 3.0, 40.0 }, 6.0);
     const double right = Capsule(p, { 11.0, 3.0, -40.0 }, { 11.0, -3.0, 40.0 }, 6.0);
-    return Without(box, std::min(left, right), RimRounding);
+    return Without(box, std::min(left, right), LinkRounding);
   };
   shape.Genus = shape.GenusFromOutside = 2;
   shape.Seeds = { { 0.0, 0.0, 0.0 }, { -21.5, 0.0, 0.0 }, { 21.5, 0.0, 0.0 } };
@@ -163,7 +163,7 @@ double OpenedShell(const Vector& p, double outer, double inner, double opening)
   const double radius = Length(p);
   const double shell = std::max(radius - outer, inner - radius);
   return opening > 0.0
-    ? Without(shell, Capsule(p, { 0.0, 0.0, 0.0 }, Scaled(TiltedAxis, 60.0), opening), RimRounding)
+    ? Without(shell, Capsule(p, { 0.0, 0.0, 0.0 }, Scaled(TiltedAxis, 60.0), opening), LinkRounding)
     : shell;
 }
 
@@ -202,7 +202,7 @@ SceneShape MakeThinShellWithEightHoles(double wall)
     const Vector turned = { std::abs(c * p[0] - s * p[1]), std::abs(s * p[0] + c * p[1]),
       std::abs(p[2]) };
     const double hole = Capsule(turned, { 0.0, 0.0, 0.0 }, { 40.0, 40.0, 40.0 }, 6.0);
-    return Without(shell, hole, 0.5 * RimRounding);
+    return Without(shell, hole, 0.5 * LinkRounding);
   };
   shape.Genus = shape.GenusFromOutside = 7;
   shape.CoarsestFaithfulLevel = 0;

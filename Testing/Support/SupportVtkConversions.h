@@ -107,14 +107,14 @@ inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* im
  */
 inline std::vector<double> DeltasOf(vtkPolyData* surface)
 {
-  constexpr double wantedInDelta = 1.6; // Edges may be 1 to 2.5.
+  constexpr double requestedInDelta = 1.6; // Edges may be 1 to 2.5.
   std::vector<double> deltas;
   vtkDataArray* sizes = surface->GetPointData()->GetArray("EdgeSize");
   vtkDataArray* delta = surface->GetFieldData()->GetArray("Delta");
   for (vtkIdType p = 0; (sizes || delta) && p < surface->GetNumberOfPoints(); ++p)
   {
     deltas.push_back(
-      sizes ? sizes->GetComponent(p, 0) / wantedInDelta : delta->GetComponent(0, 0));
+      sizes ? sizes->GetComponent(p, 0) / requestedInDelta : delta->GetComponent(0, 0));
   }
   return deltas;
 }

@@ -19,37 +19,37 @@ inline Vector Maximum(const Vector& a, const Vector& b)
   Maximum(Lanes::Load(&a.X), Lanes::Load(&b.X)).Store(&greatest.X);
   return greatest;
 }
-/** Return a bit for each axis: set if the coordinate of a is less. */
+/** Return bit k set if coordinate k of a is less than that of b. */
 inline unsigned LessBits(const Vector& a, const Vector& b)
 {
   return LessBits(Lanes::Load(&a.X), Lanes::Load(&b.X)) & 7u;
 }
 
-/** A box along the axes. */
+/** Axis-aligned box. */
 struct Box
 {
   Vector Low;
   Vector High;
 
-  /** The smallest box about three points. */
+  /** Return the bounding box of three points. */
   static Box Of(const Vector& a, const Vector& b, const Vector& c)
   {
     return { Minimum(a, Minimum(b, c)), Maximum(a, Maximum(b, c)) };
   }
 
-  /** The box made larger by a margin on all sides. */
+  /** Return the box extended by a margin on all sides. */
   Box Grown(float margin) const
   {
     const Vector by(margin, margin, margin);
     return { this->Low - by, this->High + by };
   }
-  /** The smallest box that holds another one, too. */
+  /** Return the bounding box of both boxes. */
   Box With(const Box& other) const
   {
     return { Minimum(this->Low, other.Low), Maximum(this->High, other.High) };
   }
   Vector Middle() const { return (this->Low + this->High) * 0.5f; }
-  /** What lies in both: a box with Low beyond High where they are apart. */
+  /** Return the intersection; Low exceeds High if the boxes are disjoint. */
   Box Within(const Box& other) const
   {
     return { Maximum(this->Low, other.Low), Minimum(this->High, other.High) };

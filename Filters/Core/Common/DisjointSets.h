@@ -14,13 +14,13 @@ namespace volumic
 /**
  * Union-find over the integers from 0 on. The root of a set is its smallest member.
  *
- * Threads may join any integers at once, without locks (R. J. Anderson and H. Woll, "Wait-free
- * Parallel Algorithms for the Union-Find Problem", STOC 1991): the sets are those of any order.
+ * Thread-safe and lock-free (R. J. Anderson and H. Woll, "Wait-free Parallel Algorithms for the
+ * Union-Find Problem", STOC 1991). The sets do not depend on the order of the calls.
  */
 class DisjointSets
 {
 public:
-  /** n sets of one integer each. */
+  /** Create n sets of one integer each. */
   explicit DisjointSets(std::size_t n) : Parent(n)
   {
     for (std::size_t i = 0; i < n; ++i)
@@ -29,7 +29,7 @@ public:
     }
   }
 
-  /** The root of the set that i is in at the moment, as other threads may join sets. */
+  /** Return the current root of the set of i. Other threads may join sets meanwhile. */
   int Find(int i)
   {
     for (;;)
@@ -40,7 +40,7 @@ public:
       {
         return parent;
       }
-      // Shortens the way, unless somebody has done so; either leads to the root.
+      // Path halving. If another thread has changed the entry, it still leads to the root.
       this->Parent[i].compare_exchange_weak(parent, next, std::memory_order_relaxed);
       i = next;
     }
@@ -53,7 +53,7 @@ public:
       i = this->Find(i);
       j = this->Find(j);
       int larger = std::max(i, j);
-      // The larger root gets a parent, if it still is one.
+      // Fails if the larger one is not a root any more.
       if (i == j ||
         this->Parent[larger].compare_exchange_strong(
           larger, std::min(i, j), std::memory_order_relaxed))
@@ -64,7 +64,7 @@ public:
   }
 
 private:
-  LargeVector<std::atomic<int>> Parent; ///< A smaller member of the set, or, of the root, itself.
+  LargeVector<std::atomic<int>> Parent; ///< smaller member of the set; of a root: itself
 };
 }
 

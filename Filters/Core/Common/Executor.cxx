@@ -16,8 +16,8 @@ namespace
 constexpr std::size_t ChunksPerThread = 8;
 
 /**
- * The order of a loop for ThreadSanitizer, which does not see the synchronization of TBB: the caller
- * before all chunks before the caller.
+ * The order of a loop for ThreadSanitizer, which does not see the synchronization of TBB: the
+ * caller before all chunks before the caller.
  */
 class VisibleOrder
 {
@@ -50,8 +50,8 @@ public:
 };
 
 Executor::Executor(int numberOfThreads)
-  : Number(std::max(numberOfThreads, 1))
-  , Threads(this->Number > 1 ? std::make_shared<Arena>(this->Number) : nullptr)
+  : Number(std::max(numberOfThreads, 1)),
+    Threads(this->Number > 1 ? std::make_shared<Arena>(this->Number) : nullptr)
 {
 }
 

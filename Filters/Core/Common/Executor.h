@@ -16,8 +16,8 @@ namespace volumic
  * Parallel loops on the threads of oneTBB, in an arena that limits how many work at the same time.
  *
  * The bodies write to disjoint locations and reduce in fixed spans. Results therefore do not depend
- * on the chunks nor on the number of threads. Loops may be nested: threads without work of their own
- * take chunks of any loop. A thread that waits for a loop takes chunks of that loop only.
+ * on the chunks nor on the number of threads. Loops may be nested: threads without work of their
+ * own take chunks of any loop. A thread that waits for a loop takes chunks of that loop only.
  */
 class Executor
 {
@@ -55,14 +55,14 @@ private:
   std::shared_ptr<Arena> Threads; ///< Null for a single thread.
 };
 
-/** For work that is too small for threads. */
+/** Return an executor without threads, for small loops. */
 inline Executor& OnThisThread()
 {
   static Executor executor;
   return executor;
 }
 
-/** Runs body(span, begin, end) over fixed spans of [0, n): the same for any executor. */
+/** Call body(span, begin, end) on spans of [0, n) that do not depend on the number of threads. */
 template <typename Body>
 void ForSpans(Executor& executor, std::size_t n, std::size_t size, Body&& body)
 {
@@ -77,10 +77,7 @@ void ForSpans(Executor& executor, std::size_t n, std::size_t size, Body&& body)
     });
 }
 
-/**
- * The sum of sumOf(begin, end) over fixed spans of [0, n), in their order: the same bits for any
- * executor.
- */
+/** Return the sum of sumOf(begin, end) over spans of [0, n); bit-identical for any executor. */
 template <typename SumOf>
 double SumOfSpans(Executor& executor, std::size_t n, std::size_t size, SumOf&& sumOf)
 {

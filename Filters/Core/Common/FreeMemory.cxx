@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/FreeMemory.h"
 
-#include <cstdlib> // Tells of which C library this is.
+#include <cstdlib> // For __GLIBC__
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -6,9 +6,9 @@
 namespace volumic
 {
 /**
- * Gives memory that has been freed back to the system, where the C library would keep it: glibc
- * does, of pieces of up to 32 MB, as long as one behind them is in use. Takes some milliseconds:
- * for the end of a phase after which other arrays are needed. Other C libraries are left alone.
+ * Return freed heap memory to the system, at the end of a phase. glibc keeps freed blocks of up to
+ * 32 MB if a block behind them is in use. Takes some milliseconds. No effect with other C
+ * libraries.
  */
 void GiveBackFreeMemory();
 }

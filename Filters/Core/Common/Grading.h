@@ -8,28 +8,28 @@
 namespace volumic
 {
 /**
- * How the edges of a surface may differ: as long as a tolerance allows where the isopotential is
- * flat, as short as the finest level's where that, or what is thin, asks for it.
+ * Options of graded edge lengths. Edges are as long as the tolerance allows where the isosurface is
+ * flat, and as short as those of the finest level where curvature or thin parts require it.
  */
 struct Grading
 {
-  /** How far a face may be from the isopotential; 0: all edges are of one length. */
+  /** Largest distance of a face from the isosurface; 0: uniform edge length. */
   double Tolerance = 0.0;
-  /** 0: AutomaticGrowth times what edges may be elsewhere; from that to MostGrowth times that. */
+  /** Longest edge; 0: AutomaticGrowth times the uniform length. At most MostGrowth times. */
   double MaximumEdgeLength = 0.0;
-  double Gradation = 0.2;         ///< By how much delta grows per length walked.
-  /** Edges are shorter than those of the level before only where the object, or the air, is thin. */
+  double Gradation = 0.2; ///< increase of delta per distance
+  /** Subdivide only where the object or the gap between walls is thin. */
   bool ThinParts = false;
 
   static constexpr double MostGradation = 0.3;
-  /** As far as the thickness is looked for, in the least delta: about four voxels. */
+  /** Largest thickness that is measured, in the smallest delta: about four voxels. */
   static constexpr float MostThickness = 8.f;
   static constexpr float AutomaticGrowth = 4.f;
   static constexpr float MostGrowth = 5.f;
 
-  bool IsWanted() const { return this->HasTolerance() || this->ThinParts; }
+  bool IsRequested() const { return this->HasTolerance() || this->ThinParts; }
   bool HasTolerance() const { return this->Tolerance != 0.0; }
-  /** How many times longer edges may become that may be up to `longest` elsewhere. */
+  /** Return the ratio of the longest edge to `longest`, the longest edge of a uniform surface. */
   double Growth(double longest) const
   {
     return this->MaximumEdgeLength > 0.0
@@ -38,11 +38,11 @@ struct Grading
   }
 };
 
-/** How far a surface is from the isopotential. */
+/** Distance between a surface and the isosurface. */
 struct Fit
 {
-  double LargestDistance = 0.0; ///< No further is looked than GradedSizes::Furthest().
-  double WithinTolerance = 1.0; ///< Share of the points that are looked at.
+  double LargestDistance = 0.0; ///< clamped to GradedSizes::Furthest()
+  double WithinTolerance = 1.0; ///< fraction of the sampled points
 };
 }
 

@@ -9,15 +9,16 @@
 
 namespace volumic
 {
-/** As many values as there are, and an eighth: memory that is not touched costs nothing. */
+/** Return n and an eighth more. Memory that is not touched costs nothing. */
 constexpr std::size_t WithRoomToGrow(std::size_t n)
 {
   return n + n / 8;
 }
 
 /**
- * Lengthens a vector to n values, if it is shorter, by an eighth at least: the library would double
- * the memory, which of a surface that hardly grows any more is half of it for nothing.
+ * Resize a vector to n values if it is shorter, and its capacity by an eighth at least. The
+ * standard library would double the memory, half of which stays unused in a surface that hardly
+ * grows.
  */
 template <typename T, typename Allocator>
 void Grow(std::vector<T, Allocator>& values, std::size_t n, const T& value)

@@ -14,14 +14,14 @@ namespace volumic
 using Point = std::array<double, 3>;
 using Triangle = std::array<int, 3>;
 
-/** An indexed triangle mesh, in whatever space its owner says. */
+/** Indexed triangle mesh. Its owner defines the coordinate space. */
 struct IndexedSurface
 {
   LargeVector<Point> Points;
   LargeVector<Triangle> Triangles; ///< Counter-clockwise seen from outside.
 };
 
-/** A box along the axes; empty until a point is added. */
+/** Axis-aligned box; empty until a point is added. */
 struct Bounds
 {
   static constexpr double Most = std::numeric_limits<double>::max();
@@ -37,7 +37,7 @@ struct Bounds
     }
   }
 
-  /** Of all corners of triangles; points that no triangle uses don't count. */
+  /** Return the bounds of all triangles. Unused points are ignored. */
   static Bounds Of(const IndexedSurface& surface)
   {
     Bounds bounds;

@@ -11,16 +11,14 @@
 
 namespace volumic
 {
-/**
- * Six digits, as a stream's, but all of those of large values, which may differ in the last ones.
- */
+/** Write six digits, or all digits of large values, which may differ in the last ones. */
 template <typename Part>
 void WritePart(std::ostream& text, const Part& part)
 {
   if constexpr (std::is_floating_point_v<Part>)
   {
     constexpr int fewDigits = 6;
-    constexpr int allDigits = 15; // Of any number, digits10 of a double.
+    constexpr int allDigits = 15; // std::numeric_limits<double>::digits10
     const double size = std::abs(static_cast<double>(part));
     text.precision(size >= 1e6 && size < 1e15 ? allDigits : fewDigits);
   }
@@ -28,8 +26,8 @@ void WritePart(std::ostream& text, const Part& part)
 }
 
 /**
- * The parts as one text, numbers as everyone reads them: `1000` and `0.5`, also in a program whose
- * global locale would write `1.000` and `0,5`.
+ * Concatenate the parts to one text. Numbers have the C locale (`1000`, `0.5`), whatever the global
+ * locale is.
  */
 template <typename... Parts>
 std::string Join(const Parts&... parts)

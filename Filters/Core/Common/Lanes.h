@@ -15,9 +15,8 @@
 namespace volumic
 {
 /**
- * Four floats that are worked on at once, each of them rounded like a float alone, so that it makes
- * no difference to results whether something is computed in lanes. In registers of SSE2, which any
- * x86-64 has; elsewhere as loops, which compilers make vectors of.
+ * Four floats in a SIMD register. Each lane is rounded like a single float, so results do not
+ * depend on the use of lanes. Uses SSE2 on x86-64, and loops that compilers vectorize elsewhere.
  */
 class Lanes
 {
@@ -33,17 +32,23 @@ public:
 #endif
 
   Lanes() = default;
-  Lanes(float x); ///< In all lanes.
-  explicit Lanes(const Type& value)
-    : Value(value)
-  {
-  }
-  static Lanes Load(const float* from); ///< From anywhere, of any alignment.
+  Lanes(float x); ///< Set all lanes to x.
+  explicit Lanes(const Type& value) : Value(value) {}
+  static Lanes Load(const float* from); ///< Load from an address of any alignment.
   void Store(float* to) const;
 
-  Lanes& operator+=(const Lanes& b) { return *this = *this + b; }
-  Lanes& operator-=(const Lanes& b) { return *this = *this - b; }
-  Lanes& operator*=(const Lanes& b) { return *this = *this * b; }
+  Lanes& operator+=(const Lanes& b)
+  {
+    return *this = *this + b;
+  }
+  Lanes& operator-=(const Lanes& b)
+  {
+    return *this = *this - b;
+  }
+  Lanes& operator*=(const Lanes& b)
+  {
+    return *this = *this * b;
+  }
 
   friend Lanes operator+(const Lanes& a, const Lanes& b);
   friend Lanes operator-(const Lanes& a, const Lanes& b);
@@ -52,9 +57,9 @@ public:
   friend Lanes Minimum(const Lanes& a, const Lanes& b);
   friend Lanes Maximum(const Lanes& a, const Lanes& b);
   friend Lanes SquareRoot(const Lanes& a);
-  /** x in the lanes where a < b, 0 in the others. */
+  /** Return x in the lanes where a < b, 0 in the others. */
   friend Lanes WhereLess(const Lanes& a, const Lanes& b, const Lanes& x);
-  /** Bit i: whether a < b in lane i. */
+  /** Return bit i set if a < b in lane i. */
   friend unsigned LessBits(const Lanes& a, const Lanes& b);
   friend Vector3<Lanes> Gather(
     const float* a, const float* b, const float* c, const float* d, Lanes& fourth);
@@ -63,10 +68,7 @@ public:
 };
 
 #ifdef __SSE2__
-inline Lanes::Lanes(float x)
-  : Value(_mm_set1_ps(x))
-{
-}
+inline Lanes::Lanes(float x) : Value(_mm_set1_ps(x)) {}
 inline Lanes Lanes::Load(const float* from)
 {
   return Lanes(_mm_loadu_ps(from));
@@ -93,7 +95,7 @@ inline Lanes operator/(const Lanes& a, const Lanes& b)
 }
 inline Lanes Minimum(const Lanes& a, const Lanes& b)
 {
-  return Lanes(_mm_min_ps(b.Value, a.Value)); // Of equals the first, like std::min.
+  return Lanes(_mm_min_ps(b.Value, a.Value)); // Returns the first of equal values, like std::min.
 }
 inline Lanes Maximum(const Lanes& a, const Lanes& b)
 {
@@ -122,7 +124,7 @@ inline Vector3<Lanes> Gather(
   fourth = Lanes(w);
   return Vector3<Lanes>(Lanes(x), Lanes(y), Lanes(z));
 }
-/** Bit i: whether the i-th of four numbers is that one. */
+/** Return bit i set if the i-th of four numbers equals `number`. */
 inline unsigned EqualBits(const int* four, int number)
 {
   const __m128i equal = _mm_cmpeq_epi32(
@@ -143,10 +145,7 @@ inline Lanes Each(Operation&& operation)
   return result;
 }
 }
-inline Lanes::Lanes(float x)
-  : Value{ { x, x, x, x } }
-{
-}
+inline Lanes::Lanes(float x) : Value{ { x, x, x, x } } {}
 inline Lanes Lanes::Load(const float* from)
 {
   return lanes::Each([&](int i) { return from[i]; });
@@ -208,7 +207,7 @@ inline Vector3<Lanes> Gather(
   fourth = lane(3);
   return Vector3<Lanes>(lane(0), lane(1), lane(2));
 }
-/** Bit i: whether the i-th of four numbers is that one. */
+/** Return bit i set if the i-th of four numbers equals `number`. */
 inline unsigned EqualBits(const int* four, int number)
 {
   unsigned bits = 0;
@@ -233,7 +232,7 @@ inline float GreatestOf(const Lanes& a)
   return std::max(std::max(lane[0], lane[1]), std::max(lane[2], lane[3]));
 }
 
-/** The lowest of bits, some of which must be set. */
+/** Return the index of the lowest set bit. At least one bit must be set. */
 inline int LowestBit(unsigned bits)
 {
 #ifdef __GNUC__
@@ -248,20 +247,19 @@ inline int LowestBit(unsigned bits)
 #endif
 }
 
-/** Four vectors. Dot, Cross and operators are those of any vector, see Vector.h. */
+/** Four vectors, with the operations of Vector.h. */
 using VectorLanes = Vector3<Lanes>;
 
 inline VectorLanes AllLanes(const Vector& v)
 {
   return VectorLanes(Lanes(v.X), Lanes(v.Y), Lanes(v.Z));
 }
-/** Four vectors from anywhere. */
 inline VectorLanes Gather(const Vector& a, const Vector& b, const Vector& c, const Vector& d)
 {
   Lanes padding;
   return Gather(&a.X, &b.X, &c.X, &d.X, padding);
 }
-/** Zero stays zero. */
+/** Return unit vectors; zero vectors stay zero. */
 inline VectorLanes Normalized(const VectorLanes& a)
 {
   const Lanes length = SquareRoot(Dot(a, a));

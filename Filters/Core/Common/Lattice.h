@@ -9,9 +9,8 @@
 namespace volumic
 {
 /**
- * Three integers as one number, for maps of places on a lattice: the last 21 bits of each, which
- * hold every lattice that memory holds. No two places of a range of 2^21 along each axis have the
- * same key.
+ * Hash key of a lattice point: the last 21 bits of each index. Keys are unique in a range of 2^21
+ * along each axis.
  */
 inline std::uint64_t LatticeKey(std::int64_t i, std::int64_t j, std::int64_t k)
 {

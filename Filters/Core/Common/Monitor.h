@@ -8,56 +8,52 @@
 namespace volumic
 {
 /**
- * By which work asks, now and then, whether to go on: it tells the share of it that is done, in
- * [0, 1]; the answer false means stop. Asked on the thread that does the work, never from within an
- * executor.
+ * Progress callback: receives the fraction done, in [0, 1]; returns false to cancel. Called on the
+ * thread that runs the algorithm, never within a parallel loop.
  */
-using ProgressQuestion = std::function<bool(double share)>;
+using ProgressCallback = std::function<bool(double share)>;
 
-/** For work that nobody follows. */
+/** ProgressCallback that never cancels. */
 inline bool NeverStop(double)
 {
   return true;
 }
 
 /**
- * Progress out, cancel in: the only way in which the core hears of its host, which it never sees.
- * The default listens to nothing and never cancels. Who wants to end a run for any other reason,
- * such as the time it takes, says so here too.
+ * Interface between the core and its host: reports progress, and cancels a run for any reason, such
+ * as a time limit. The default never cancels.
  */
 class Monitor
 {
 public:
-  /** What is being done. */
   enum class Activity
   {
     Starting,
     Dividing,
-    Recovering, ///< Looking for what coarser levels have lost.
+    Recovering, ///< searching features missed by coarser levels
     Iterating,
     Regularising
   };
 
   struct Status
   {
-    int Level = 0;           ///< Level that is running; 0 is the finest.
+    int Level = 0; ///< current level; 0 is the finest
     Activity Doing = Activity::Iterating;
-    int Iteration = 0;       ///< Iterations done on this level.
-    int Sweep = 0;           ///< Number of the level's sweep, from 1; 0 before the first.
-    int Block = 0;           ///< Blocks that were visited in this sweep, and
-    int Blocks = 0;          ///< how many there are at most.
-    int Vertices = 0;        ///< Vertices of the surface now.
-    int ActiveVertices = 0;  ///< How many of them are not frozen.
-    double Fraction = 0;     ///< Estimate of the share of this level that is done, in [0, 1]. It
-                             ///< never becomes less.
+    int Iteration = 0;      ///< iterations done at this level
+    int Sweep = 0;          ///< sweep of the level, from 1; 0 before the first
+    int Block = 0;          ///< block passes done in this sweep
+    int Blocks = 0;         ///< largest number of block passes in this sweep
+    int Vertices = 0;       ///< current number of vertices
+    int ActiveVertices = 0; ///< vertices that have not converged
+    double Fraction = 0;    ///< estimated fraction of this level, in [0, 1]; never decreases
   };
 
   virtual ~Monitor() = default;
 
   /**
-   * Asked within, before and after the iterations, several times a second; the surface is in
-   * work. False asks to stop as soon as it is closed, manifold and free of self-intersections, as
-   * which it is then handed over. After that it is not asked again.
+   * Return false to cancel. Called several times a second, while the surface may be incomplete. The
+   * run then ends as soon as the surface is closed, manifold and free of self-intersections. It
+   * does not call this method again.
    */
   virtual bool GoOn(const Status&) { return true; }
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/ScratchMemory.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -39,7 +39,7 @@ namespace volumic
 namespace
 {
 std::mutex theMutex;
-std::vector<std::string> theDirectories; ///< Of all objects that exist; the last one is used.
+std::vector<std::string> theDirectories; ///< of all existing objects; the last one is used
 
 std::string DirectoryInUse()
 {
@@ -48,7 +48,7 @@ std::string DirectoryInUse()
 }
 
 #ifdef __SANITIZE_ADDRESS__
-// It guards what is about an array of the heap, not what is about a mapping.
+// AddressSanitizer guards the surroundings of heap arrays, but not of mappings.
 constexpr bool HeapIsGuarded = true;
 
 bool IsOnGuardedHeap(const void* memory)
@@ -91,7 +91,7 @@ void FreeOnHeap(void* memory) noexcept
 }
 
 #ifdef VOLUMIC_MAPS_FILES
-/** A file that no directory shows. */
+/** File without a name. */
 class ScratchFile
 {
 public:
@@ -104,8 +104,8 @@ public:
       this->Descriptor = mkostemp(name.data(), O_CLOEXEC);
       if (this->Descriptor < 0)
       {
-        Refuse("Scratch Directory ", directory, " cannot be used: ",
-          std::generic_category().message(errno),
+        ThrowInvalidArgument("Scratch Directory ", directory,
+          " cannot be used: ", std::generic_category().message(errno),
           ". Choose a directory that exists and in which you may create files.");
       }
       unlink(name.c_str());
@@ -129,7 +129,9 @@ public:
     {
       return EFBIG; // The system would end the process by SIGXFSZ.
     }
-    struct statvfs system{};
+    struct statvfs system
+    {
+    };
     if (fstatvfs(this->Descriptor, &system) == 0 && system.f_blocks > 0 &&
       bytes / system.f_frsize >= system.f_bavail)
     {
@@ -190,7 +192,7 @@ ScratchMemory::ScratchMemory(const std::string& directory) : Directory(directory
 #ifdef VOLUMIC_MAPS_FILES
   munmap(Map(directory, 1), 1); // Report errors before anything is computed.
 #else
-  Refuse("Scratch Directory is ", directory,
+  ThrowInvalidArgument("Scratch Directory is ", directory,
     ", but arrays can be mapped to files on Linux with 64 bits only. Clear Scratch Directory.");
 #endif
   const std::lock_guard<std::mutex> lock(theMutex);
@@ -202,8 +204,7 @@ ScratchMemory::~ScratchMemory()
   if (!this->Directory.empty())
   {
     const std::lock_guard<std::mutex> lock(theMutex);
-    theDirectories.erase(
-      std::find(theDirectories.begin(), theDirectories.end(), this->Directory));
+    theDirectories.erase(std::find(theDirectories.begin(), theDirectories.end(), this->Directory));
   }
 }
 

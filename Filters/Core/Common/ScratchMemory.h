@@ -45,7 +45,7 @@ public:
   ScratchMemory(const ScratchMemory&) = delete;
   ScratchMemory& operator=(const ScratchMemory&) = delete;
 
-  /** Whether new large arrays lie in files. */
+  /** Return whether new large arrays lie in files. */
   static bool IsUsed();
 
 private:
@@ -53,18 +53,18 @@ private:
 };
 
 /**
- * Memory for an array. A large one is zero, and its pages take no memory before they are written.
- * Others are on the heap, with any content. The address is a multiple of `alignment`, a power of 2
- * of 64 at most.
+ * Allocate memory for an array. Large arrays are zero, and take no memory before they are written.
+ * Smaller ones are on the heap, uninitialized. The address is a multiple of `alignment`, a power of
+ * 2 of 64 at most.
  * @throws std::bad_alloc, ScratchFull.
  */
 void* AllocateLarge(std::size_t bytes, std::size_t alignment = 64);
-/** Free what AllocateLarge() returned for as many bytes. Null is nothing. */
+/** Free memory that AllocateLarge() has returned for this number of bytes, or null. */
 void FreeLarge(void* memory, std::size_t bytes) noexcept;
 
 /**
- * While one is alive, arrays that this thread allocates are all zero, and the values that it adds
- * to them are not written: those of an array that is new. See MakeZeroed.
+ * While an object exists, arrays that this thread allocates are zero, and default-constructed
+ * values are not written to them. See MakeZeroed().
  */
 class ZeroedAllocations
 {
@@ -73,7 +73,7 @@ public:
   ~ZeroedAllocations() { --Alive; }
   ZeroedAllocations(const ZeroedAllocations&) = delete;
   ZeroedAllocations& operator=(const ZeroedAllocations&) = delete;
-  /** Asked for each value of an array. */
+  /** Return whether an object exists on this thread. */
   static bool AreOn() { return Alive > 0; }
 
 private:
@@ -91,20 +91,19 @@ struct LargeAllocator
   }
   T* allocate(std::size_t n) { return static_cast<T*>(AllocateLarge(n * sizeof(T), alignof(T))); }
   void deallocate(T* memory, std::size_t n) noexcept { FreeLarge(memory, n * sizeof(T)); }
-  /** Writes nothing where the memory is zero already. */
+  /** Write nothing if the memory is zero already. */
   template <typename U>
-  void construct(U* place)
+  void construct(U* slot)
   {
     if (!ZeroedAllocations::AreOn())
     {
-      ::new (static_cast<void*>(place)) U();
+      ::new (static_cast<void*>(slot)) U();
     }
   }
   template <typename U, typename First, typename... Others>
-  void construct(U* place, First&& first, Others&&... others)
+  void construct(U* slot, First&& first, Others&&... others)
   {
-    ::new (static_cast<void*>(place))
-      U(std::forward<First>(first), std::forward<Others>(others)...);
+    ::new (static_cast<void*>(slot)) U(std::forward<First>(first), std::forward<Others>(others)...);
   }
   template <typename U>
   bool operator==(const LargeAllocator<U>&) const
@@ -123,8 +122,8 @@ template <typename T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 
 /**
- * Empties it where it has no room for n values, and gives it room for more: address space costs
- * nothing, and new pages take longer than all that is done with them. In a file space is reserved.
+ * Ensure a capacity of n values. A new array is larger, as unused address space costs nothing; in a
+ * scratch file, where space is reserved, only by a quarter. Its old values are lost.
  */
 template <typename T>
 void MakeRoom(LargeVector<T>& values, std::size_t n)
@@ -136,7 +135,7 @@ void MakeRoom(LargeVector<T>& values, std::size_t n)
   }
 }
 
-/** Makes it n values of bytes that are all zero, which take no memory before they are written. */
+/** Replace the values by n zeros, which take no memory before they are written. */
 template <typename T>
 void MakeZeroed(LargeVector<T>& values, std::size_t n)
 {

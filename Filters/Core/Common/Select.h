@@ -12,9 +12,9 @@
 
 namespace volumic
 {
-/** The indices i below n for which isWanted(i), which is called on any thread, in order. */
-template <typename IsWanted>
-std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isWanted)
+/** Return the indices i < n for which isSelected(i), in order. It is called on any thread. */
+template <typename IsSelected>
+std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsSelected&& isSelected)
 {
   constexpr std::size_t size = 2048;
   std::vector<std::vector<int>> spans((n + size - 1) / size);
@@ -25,7 +25,7 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
       std::size_t count = 0;
       for (std::size_t i = begin; i < end; ++i)
       {
-        if (isWanted(i))
+        if (isSelected(i))
         {
           found[count++] = static_cast<int>(i);
         }
@@ -37,7 +37,7 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsWanted&& isW
   return selected;
 }
 
-/** Leaves each item once, in order. */
+/** Sort the items and remove duplicates. */
 template <typename T>
 void SortUnique(std::vector<T>& items)
 {

@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** std::sort on threads, for values that are interchangeable if equal. Not within a loop's body. */
+/** Sort in parallel. Equal values must be interchangeable. Do not call it within a loop's body. */
 template <typename Values>
 void Sort(Executor& executor, Values& values)
 {

@@ -13,9 +13,8 @@
 namespace volumic
 {
 /**
- * For lists that threads fill at once: the place at which the items of each span of [0, n) begin,
- * if they follow those of the spans before, and the number of all as the last entry.
- * countIn(begin, end) tells how many items a span has.
+ * Return the offset of the items of each span of [0, n) in a common list, and their total number as
+ * the last entry. countIn(begin, end) returns the number of items of a span.
  */
 template <typename CountIn>
 std::vector<std::size_t> FirstOfSpans(
@@ -32,14 +31,14 @@ std::vector<std::size_t> FirstOfSpans(
   return first;
 }
 
-/** The sum of the counts countIn(begin, end) of all spans of [0, n). */
+/** Return the sum of countIn(begin, end) over all spans of [0, n). */
 template <typename CountIn>
 std::size_t CountInSpans(Executor& executor, std::size_t n, std::size_t size, CountIn&& countIn)
 {
   return FirstOfSpans(executor, n, size, countIn).back();
 }
 
-/** Joins lists, which are emptied, in their order; the memory of `all` is used again. */
+/** Move all lists in order into `all`, whose memory is reused. */
 template <typename T, typename Allocator>
 void Concatenate(
   Executor& executor, std::vector<std::vector<T>>& lists, std::vector<T, Allocator>& all)
@@ -53,8 +52,8 @@ void Concatenate(
   ForSpans(executor, lists.size(), 1,
     [&](std::size_t b, std::size_t, std::size_t)
     {
-      std::copy(lists[b].begin(), lists[b].end(),
-        all.begin() + static_cast<std::ptrdiff_t>(first[b]));
+      std::copy(
+        lists[b].begin(), lists[b].end(), all.begin() + static_cast<std::ptrdiff_t>(first[b]));
       std::vector<T>().swap(lists[b]);
     });
 }
@@ -67,7 +66,7 @@ std::vector<T> Joined(Executor& executor, std::vector<std::vector<T>>& lists)
   return all;
 }
 
-/** Joins what add(i, list) adds for each i of [0, n), in their order. */
+/** Return, in order, the items that add(i, list) appends for each i of [0, n). */
 template <typename T, typename Add>
 std::vector<T> CollectInSpans(Executor& executor, std::size_t n, std::size_t size, Add&& add)
 {

@@ -8,8 +8,8 @@
 namespace volumic
 {
 /**
- * A point or vector of the workspace. Stored in float (a quarter of a cache line with the fourth,
- * unused lane); tests of triangles widen it to double, in which most differences of floats are exact.
+ * Point or vector of the computational space. Floats, with the unused fourth lane, take a quarter
+ * of a cache line. Triangle tests widen to double, in which most differences of floats are exact.
  */
 template <typename T>
 struct alignas(16) Vector3
@@ -17,20 +17,13 @@ struct alignas(16) Vector3
   T X = 0;
   T Y = 0;
   T Z = 0;
-  T Padding = 0; ///< So that operations are on whole registers.
+  T Padding = 0; ///< Fills a SIMD register.
 
   Vector3() = default;
-  Vector3(T x, T y, T z)
-    : X(x)
-    , Y(y)
-    , Z(z)
-  {
-  }
+  Vector3(T x, T y, T z) : X(x), Y(y), Z(z) {}
   template <typename U>
   explicit Vector3(const Vector3<U>& other)
-    : X(static_cast<T>(other.X))
-    , Y(static_cast<T>(other.Y))
-    , Z(static_cast<T>(other.Z))
+    : X(static_cast<T>(other.X)), Y(static_cast<T>(other.Y)), Z(static_cast<T>(other.Z))
   {
   }
 
@@ -91,8 +84,7 @@ inline T Dot(const Vector3<T>& a, const Vector3<T>& b)
 template <typename T>
 inline Vector3<T> Cross(const Vector3<T>& a, const Vector3<T>& b)
 {
-  return Vector3<T>(
-    a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
+  return Vector3<T>(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 }
 template <typename T>
 inline T SquaredLength(const Vector3<T>& a)
@@ -104,7 +96,7 @@ inline T Length(const Vector3<T>& a)
 {
   return std::sqrt(Dot(a, a));
 }
-/** Zero stays zero. */
+/** Return the unit vector; zero stays zero. */
 template <typename T>
 inline Vector3<T> Normalized(const Vector3<T>& a)
 {

@@ -11,14 +11,12 @@
 namespace volumic
 {
 /**
- * Recognises a level that never rests though it gets nowhere: what it merges it cuts again, or its
- * vertices swing, and the enclosed volume goes to and fro. Fed with the volume at every fifth
- * iteration, as RestCriterion. Volumes: any unit.
+ * Limit cycle of a level: merges and cuts alternate, or vertices oscillate, so that the enclosed
+ * volume oscillates without a trend. The volume is sampled every fifth iteration, in any unit.
  *
- * Over the last 80 iterations the mean of the younger half is that of the older, within what counts
- * as rest at the pace of RestCriterion (its limit over 20 iterations), or within a quarter of the
- * swing. A volume that grows or shrinks steadily, however slowly, differs between the halves by
- * more than it does within one.
+ * The criterion compares the means of the older and the younger half of the last 80 iterations.
+ * They must differ by less than twice the limit of ConvergenceCriterion, or than a quarter of the
+ * amplitude. A steady trend, however slow, exceeds this.
  */
 class CycleCriterion
 {
@@ -40,21 +38,21 @@ public:
   }
 
 private:
-  static constexpr std::ptrdiff_t Half = 8; ///< Samples.
+  static constexpr std::ptrdiff_t Half = 8; ///< in samples
 
   struct Swing
   {
     double Mean = 0.;
     double Width = 0.;
 
-    using Place = std::vector<double>::const_iterator;
-    Swing(Place begin, Place end)
+    using Iterator = std::vector<double>::const_iterator;
+    Swing(Iterator begin, Iterator end)
     {
       const auto range = std::minmax_element(begin, end);
       this->Width = *range.second - *range.first;
-      for (Place place = begin; place != end; ++place)
+      for (Iterator at = begin; at != end; ++at)
       {
-        this->Mean += *place / static_cast<double>(end - begin);
+        this->Mean += *at / static_cast<double>(end - begin);
       }
     }
   };

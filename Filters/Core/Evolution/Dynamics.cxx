@@ -10,33 +10,34 @@ namespace volumic
 {
 namespace
 {
-/** Distance, in delta, over which the isopotential force grows to its bound. */
+/** Distance to the isosurface, in delta, at which the isopotential force reaches its bound. */
 constexpr float ForceRange = 0.75f;
-/** A vertex has moved visibly when it is this far from its anchor along its normal, in delta. */
+/** Motion along the normal from the anchor that counts as visible, in delta. */
 constexpr float VisibleAlongNormal = 0.03f;
-/** The same where what is missing then is left to the regularisation. */
+/** The same, if the rest is left to the regularisation. */
 constexpr float VisibleIfLeft = 0.08f;
-/** The same in any direction: sliding along the surface changes nothing, and is left to the end. */
+/** The same in any direction. Tangential motion has no effect until the end of a level. */
 constexpr float Visible = 0.3f;
-/** Where what is missing is left to the regularisation, what is so near to the isopotential, in
- * delta, rests at once; but what is near another part of the surface, which contacts hold off. */
-constexpr float RestsWithin = 0.25f;
-/** Iterations without visible motion after which a vertex is motionless. */
-constexpr int RestingIterations = 3;
+/** If the rest is left to the regularisation, vertices this near to the isosurface, in delta,
+ * converge at once, except those with close pairs, which contacts keep away. */
+constexpr float ConvergedWithin = 0.25f;
+/** Iterations without visible motion until a vertex has converged. */
+constexpr int IterationsToConverge = 3;
 
-/** Gradient of the image over TypicalSlope at which the gradient force is as strong as it gets. */
+/** Gradient of the image, relative to TypicalSlope(), at which the gradient force reaches its
+ * bound. */
 constexpr float FullGradient = 0.5f;
-/** Sweeps over the contacts, each of which sees the velocities that the one before has left. */
+/** Gauss-Seidel passes over the contacts. */
 constexpr int ContactSweeps = 3;
-/** Share of what is missing to delta that two vertices in contact recover in a step. */
+/** Fraction of the missing distance to delta that two vertices in contact recover per step. */
 constexpr float ContactRecovery = 0.25f;
 
-/** Of the stiffest shape of a mesh against it, per unit of weight: that of a zigzag. */
+/** Largest stiffness of tension per unit of weight, that of a zigzag. */
 constexpr float TensionStiffness = 4.f;
 constexpr float ElasticityStiffness = 12.f;
-/** Vertices that are worth a thread. */
+/** Minimum number of vertices per thread. */
 constexpr std::size_t VertexGrain = 128;
-/** By how much the time step may be shortened for the sake of internal forces. */
+/** Largest reduction of the time step for internal forces. */
 constexpr float Shortening = 4.f;
 
 float Clamp(float x)
@@ -46,9 +47,7 @@ float Clamp(float x)
 }
 
 Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor)
-  : TheField(field)
-  , Options(options)
-  , SnapsTo(options.Drive().SnapsTo)
+  : TheField(field), Options(options), SnapsTo(options.Drive().SnapsTo)
 {
   if (options.EdgeAttractionWeight > 0 && field.Image().Edges)
   {
@@ -59,16 +58,14 @@ Dynamics::Dynamics(const Field& field, const SurfaceOptions& options, Executor& 
 
 void Dynamics::SetPace()
 {
-  const float drive =
-    static_cast<float>(this->Options.IsopotentialWeight + this->Options.GradientWeight +
-      (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
-  // Strong forces oscillate like weak ones: friction grows with them as it would have to if only
-  // the unit of time were another.
+  const float drive = static_cast<float>(this->Options.IsopotentialWeight +
+    this->Options.GradientWeight + (this->Edges ? this->Options.EdgeAttractionWeight : 0.));
+  // Friction scales with the forces as in another unit of time, so strong forces oscillate no more.
   this->Drag = static_cast<float>(this->Options.Friction) * std::sqrt(std::max(drive, 1.f));
-  // A free vertex at its final speed under full force goes just the largest step.
+  // A free vertex at its terminal speed under the full force moves by the largest step.
   this->Longest =
     static_cast<float>(this->Options.MaximumStep) * this->Drag / std::max(drive, 0.5f);
-  // A spring of stiffness k swings itself up where k step^2 exceeds 4 + 2 friction step.
+  // A spring of stiffness k is unstable if k step^2 exceeds 4 + 2 friction step.
   const float outer = drive / ForceRange;
   const float inner = TensionStiffness * static_cast<float>(this->Options.TensionWeight) +
     ElasticityStiffness * static_cast<float>(this->Options.ElasticityWeight);
@@ -76,8 +73,7 @@ void Dynamics::SetPace()
   const float stable =
     (this->Drag + std::sqrt(this->Drag * this->Drag + 4 * stiffness)) / std::max(stiffness, 1e-6f);
   this->Longest = std::min(this->Longest, std::max(stable, this->Longest / Shortening));
-  const float most =
-    (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
+  const float most = (4 + 2 * this->Drag * this->Longest) / (this->Longest * this->Longest) - outer;
   this->InnerShare = inner > 0 && inner > most ? std::max(most, 0.f) / inner : 1.f;
 }
 
@@ -93,7 +89,7 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   float most = 0;
   if (this->Options.GradientWeight > 0)
   {
-    // Value has the sign of the object; the potential is the image itself.
+    // The potential is the image, whose sign differs from that of Value for dark objects.
     const float sign = this->Options.ObjectIsBright ? 1.f : -1.f;
     const float weight = static_cast<float>(this->Options.GradientWeight);
     beside -= weight *
@@ -108,8 +104,8 @@ Vector Dynamics::ForceAt(const SurfaceState& state, int v, float& value) const
   }
   if (most > 0)
   {
-    // They know of no background: beyond the margin of the image it takes over, as strong as they.
-    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    // Beyond the margin of the image, an inward force of the same strength replaces them.
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Fraction;
     along += beside - share * (beside + most);
   }
   const Ring& ring = state.Mesh.Rings[v];
@@ -151,8 +147,8 @@ void Dynamics::Accelerate(SurfaceState& state, const std::vector<int>& active,
     fastest = std::max(fastest, SquaredLength(speed));
   }
   fastest = std::sqrt(fastest);
-  const float way = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
-  step.Time = fastest * longest > way ? way / fastest : longest;
+  const float largest = static_cast<float>(this->Options.MaximumStep) * state.Sizing.Smallest();
+  step.Time = fastest * longest > largest ? largest / fastest : longest;
   for (std::size_t i = 0; i < active.size(); ++i)
   {
     Vector& velocity = state.Velocity[active[i]];
@@ -174,12 +170,11 @@ void Dynamics::Relax(SurfaceState& state, const std::vector<int>& vertices,
         state.Velocity[vertices[i]] = this->RelaxationOf(state, vertices[i], relaxation);
       }
     });
-  // Contacts: nothing may come nearer than it is.
+  // Contacts: distances must not decrease.
   this->ApplyContacts(state, vertices, pairs, step);
 }
 
-Vector Dynamics::RelaxationOf(
-  const SurfaceState& state, int v, const Relaxation& relaxation) const
+Vector Dynamics::RelaxationOf(const SurfaceState& state, int v, const Relaxation& relaxation) const
 {
   if (relaxation.LeavesThin && state.NearOthers[v])
   {
@@ -197,7 +192,7 @@ Vector Dynamics::RelaxationOf(
   }
   if (this->Edges && this->SnapsTo == SurfaceDrive::Goal::Edges)
   {
-    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Share;
+    const float share = this->TheField.Margin().DepthAt(state.Mesh.Position[v]).Fraction;
     move += n * ((1 - share) * longest * this->Edges->Along(state.Mesh.Position[v], n));
   }
   const float length = Length(move);
@@ -234,7 +229,7 @@ void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<int>& moving
   {
     state.Marks[v] |= IsMoving;
   }
-  // The pairs of a vertex follow each other.
+  // The pairs of a vertex are contiguous.
   step.Contacts.clear();
   for (std::size_t from = 0; from < pairs.size();)
   {
@@ -268,8 +263,8 @@ void Dynamics::ApplyContacts(SurfaceState& state, const std::vector<int>& moving
 }
 
 Vector Dynamics::CorrectionOf(const SurfaceState& state,
-  const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts,
-  bool separates, float time) const
+  const std::vector<Proximity::ClosePair>& pairs, const ContactsOfVertex& contacts, bool separates,
+  float time) const
 {
   const int v = contacts.Vertex;
   Vector sum;
@@ -307,8 +302,7 @@ Vector Dynamics::CorrectionOf(const SurfaceState& state,
   return sum * (1.f / static_cast<float>(std::max(count, 1)));
 }
 
-void Dynamics::Displace(
-  SurfaceState& state, const std::vector<int>& active, const Step& step) const
+void Dynamics::Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const
 {
   for (const int v : active)
   {
@@ -354,7 +348,7 @@ void Dynamics::Freeze(
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
     const auto isOff = [&](float least)
     { return this->TheField.IsOff(state.Mesh.Position[v], least * state.Sizing.At(v)); };
-    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(RestsWithin))
+    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(ConvergedWithin))
     {
       state.Active[v] = 0;
       state.Velocity[v] = Vector();
@@ -364,7 +358,7 @@ void Dynamics::Freeze(
       state.Activate(v);
     }
     else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
-      ++state.RestCount[v] >= RestingIterations)
+      ++state.ConvergedIterations[v] >= IterationsToConverge)
     {
       state.Active[v] = 0;
       state.Velocity[v] = Vector();

@@ -16,99 +16,93 @@
 namespace volumic
 {
 /**
- * Forces, time step, Newton's law with friction, contact, displacement and freezing: everything
- * of an iteration that moves vertices. It only reads, but for the state and the step that a visit
- * hands in, so visits share it.
+ * Motion of vertices in an iteration: forces, time step, Newton's law with friction, contact,
+ * displacement and freezing. Thread-safe: methods write to the given state and step only.
  *
  * Forces, in delta per unit of time squared (mass 1):
- * - tension F_c: TensionWeight times the pull to the barycentre of the neighbours, less its
- *   reaction on them. The reaction keeps the sum of the forces zero, so closed surfaces do not
- *   shrink (a pure barycentre pull does).
+ * - tension F_c: TensionWeight times the vector to the barycentre of the neighbours, minus the
+ *   reaction on them. The sum of the forces is zero, so closed surfaces do not shrink.
  * - elasticity F_e: springs along the edges with rest length 1.6 delta.
- * - isopotential F_i: along the normal, Value / (|gradient| 0.75 delta), clamped to 1; the
- *   gradient has a floor, so that plateaus do not make the force arbitrarily stiff.
- * - gradient F_di: the image is taken as a potential and the vertex descends it along its normal:
- *   - (gradient of the image . n) / (0.5 TypicalSlope), clamped to 1. To segment by edges instead
- *   of by value, give an image with valleys where the contours are (such as minus the gradient
- *   magnitude), GradientWeight 1, and a small IsopotentialWeight whose iso-value drives the
- *   surface over the flat parts.
- * - edges: EdgeAttractionWeight times EdgeAttraction::Along, if the image of the field has a map
- *   of edges.
+ * - isopotential F_i: along the normal, Value / (|gradient| 0.75 delta), clamped to 1. The gradient
+ *   has a lower bound (Field::SlopeOf), which limits the stiffness on plateaus.
+ * - gradient F_di: descent of the image along the normal, -(gradient . n) / (0.5 TypicalSlope),
+ *   clamped to 1. For segmentation by edges, use an image with valleys at the edges (such as the
+ *   negative gradient magnitude), GradientWeight 1, and a small IsopotentialWeight for flat
+ * regions.
+ * - edges: EdgeAttractionWeight times EdgeAttraction::Along(), if there is an edge map.
  *
- * Friction is Options.Friction per unit of time; where the weights of the outer forces (the last
- * three) add up to s > 1 it is times sqrt(s), so that strong forces swing no more than weak ones: a
- * common factor of all is another unit of time. Tension and elasticity that the time step cannot
- * follow would swing themselves up: the step is shortened down to a quarter, then the two are
- * weakened to what it can follow.
+ * Friction is Options.Friction per unit of time, times sqrt(s) if the weights s of the external
+ * forces (the last three) exceed 1 in sum. A common factor of all forces only scales the time. For
+ * large tension and elasticity the time step is reduced, at most to a quarter. Beyond that, both
+ * forces are reduced to the stability limit.
  *
- * Beyond the margin of the image gradient and edges give way to a pull back, against the normal, of
- * their weights; no displacement leads further out than ImageMargin allows.
+ * Beyond the margin of the image, an inward force of the same weights replaces gradient and edges.
+ * No displacement leads further out than ImageMargin allows.
  */
 class Dynamics
 {
 public:
-  /** The close pairs of a vertex, and what of its velocity they forbid. */
+  /** Close pairs of a vertex, and the correction of its velocity. */
   struct ContactsOfVertex
   {
     int Vertex;
-    std::size_t Begin; ///< Of the pairs.
+    std::size_t Begin; ///< of its pairs
     std::size_t End;
     Vector Correction;
   };
-  /** A step in time of some vertices. */
+  /** Time step of some vertices. */
   struct Step
   {
     float Time = 0;
-    std::vector<Vector> Force;              ///< In the order of the vertices.
-    std::vector<ContactsOfVertex> Contacts; ///< Of those that have any.
+    std::vector<Vector> Force;              ///< in the order of the vertices
+    std::vector<ContactsOfVertex> Contacts; ///< of vertices with pairs
   };
 
-  /** @param executor for what it finds out about the map of edges */
   Dynamics(const Field& field, const SurfaceOptions& options, Executor& executor);
 
   /**
-   * From now on the way of the last LeftOff is left to the regularisation, whose passes lead there at
-   * once: for a level whose field the surface has descended, and that is not graded.
+   * Freeze vertices within LeftOff of the isosurface, and leave the rest of their motion to the
+   * regularisation. For ungraded levels whose field the surface has descended.
    */
   void LeaveToRegularisation() { this->Leaves = true; }
 
   /**
-   * Computes forces and velocities of the active vertices; `pairs` are the contacts known from the
-   * last examination.
+   * Compute forces and velocities of the active vertices. `pairs` are the contacts of the last
+   * proximity test.
    */
   void Accelerate(SurfaceState& state, const std::vector<int>& active,
     const std::vector<Proximity::ClosePair>& pairs, Step& step, Executor& executor) const;
 
-  /** Ways in a pass of Relax. */
+  /** Options of Relax(). */
   struct Relaxation
   {
-    float Longest;   ///< Of a vertex, in delta.
-    float Smoothing; ///< Share of the way to the barycentre of the neighbours, along the surface.
-    bool Snap;       ///< Also onto the isopotential, or up to the ridge of the map of edges.
-    bool LeavesThin; ///< What is near another part of the surface stays where it is.
+    float Longest;   ///< largest displacement, in delta
+    float Smoothing; ///< fraction of the tangential vector to the barycentre of the neighbours
+    bool Snap;       ///< Move onto the isosurface, or the ridge of the edge map, too.
+    bool LeavesThin; ///< Keep vertices near another part of the surface.
   };
   static constexpr Relaxation Descending = { 0.5f, 0.5f, true, true };
   static constexpr Relaxation Regularising = { 0.15f, 0.7f, true, false };
   static constexpr Relaxation Adapting = { 0.15f, 0.7f, false, false };
 
   /**
-   * Instead of Accelerate: velocities that even the mesh out tangentially and, on request, lead onto
-   * the isopotential (Newton's step along the normal), or, by SurfaceDrive::SnapsTo, up to
-   * the ridge of the map of edges, never towards a contact.
+   * Instead of Accelerate(): compute velocities that smooth the mesh tangentially and, on request,
+   * lead onto the target SurfaceDrive::SnapsTo: the isosurface (Newton step along the normal) or
+   * the ridge of the edge map, but never towards a contact.
    */
   void Relax(SurfaceState& state, const std::vector<int>& vertices,
     const std::vector<Proximity::ClosePair>& pairs, const Relaxation& relaxation, Step& step,
     Executor& executor) const;
 
-  /** Displaces them; the place before is kept in SurfaceState::PreviousPosition. */
+  /** Displace vertices. Old positions are kept in SurfaceState::PreviousPosition. */
   void Displace(SurfaceState& state, const std::vector<int>& active, const Step& step) const;
 
-  /** How far off the isopotential, in delta, a vertex may be that is left to the regularisation. */
+  /** See LeaveToRegularisation(), in delta. */
   static constexpr float LeftOff = 0.5f;
   /**
-   * After roll back: vertices at rest become motionless, the neighbours of moved ones active, but
-   * for those that are left to the regularisation.
-   * `working` holds the active vertices and all their neighbours.
+   * After the rollback: freeze converged vertices, and activate the neighbours of moved ones,
+   * except those left to the regularisation. `working` has the active vertices and their
+   * neighbours.
    */
   void Freeze(
     SurfaceState& state, const std::vector<int>& active, const std::vector<int>& working) const;
@@ -116,15 +110,14 @@ public:
 private:
   void SetPace();
   Vector ForceAt(const SurfaceState& state, int v, float& value) const;
-  /** The way of a vertex in a pass of Relax. */
+  /** Return the displacement of a vertex in Relax(). */
   Vector RelaxationOf(const SurfaceState& state, int v, const Relaxation& relaxation) const;
   /**
-   * Whether two vertices with a common neighbour lie across a hole, or a waist, that the image
-   * wants closed: contact between them would keep it open for ever, short of the 3-cycle that a
-   * cut needs.
+   * Return whether two vertices with a common neighbour lie across a hole or a waist that the image
+   * closes. A contact between them would prevent the 3-cycle that a cut requires.
    */
   bool MayClose(const SurfaceState& state, int v, int w) const;
-  /** Takes from the velocities what would bring vertices nearer than eq. (1) allows. */
+  /** Remove the components of velocities that would violate eq. (1). */
   void ApplyContacts(SurfaceState& state, const std::vector<int>& moving,
     const std::vector<Proximity::ClosePair>& pairs, Step& step) const;
   Vector CorrectionOf(const SurfaceState& state, const std::vector<Proximity::ClosePair>& pairs,
@@ -133,11 +126,11 @@ private:
   const Field& TheField;
   const SurfaceOptions& Options;
   const SurfaceDrive::Goal SnapsTo;
-  std::unique_ptr<EdgeAttraction> Edges; ///< Null where there is none.
-  bool Leaves = false;  ///< See LeaveToRegularisation.
-  float Drag = 0;       ///< Friction as it acts.
-  float Longest = 0;    ///< Time step, unless shortened.
-  float InnerShare = 1; ///< Of the internal forces that the time step can follow.
+  std::unique_ptr<EdgeAttraction> Edges; ///< null: no edge map
+  bool Leaves = false;                   ///< see LeaveToRegularisation()
+  float Drag = 0;                        ///< effective friction
+  float Longest = 0;                     ///< longest time step
+  float InnerShare = 1; ///< fraction of the internal forces within the stability limit
 };
 }
 

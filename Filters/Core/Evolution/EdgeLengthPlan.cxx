@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Evolution/EdgeLengthPlan.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Surface/SizingField.h"
 
 #include <algorithm>
@@ -13,17 +13,16 @@ namespace volumic
 {
 namespace
 {
-/** Eq. (7): delta_h / U_h. */
+/** Range of delta_h / U_h (eq. 7). */
 constexpr double LeastRatio = SizingField::LeastSamplingRatio;
 constexpr double MostRatio = 1.;
 /**
- * Factors between two levels that a single division follows well: the range of the ratio spans
- * 2.5 / sqrt 3 = 1.443, so these leave no gap between the lengths of one level and the next.
+ * Factors between two levels that one division can follow. The range of the ratio spans
+ * 2.5 / sqrt 3 = 1.443, so there is no gap between the lengths of consecutive levels.
  */
-constexpr double LeastFactor =
-  SizingField::LongestEdgeInDelta / SizingField::VoxelDiagonal - 1e-3;
+constexpr double LeastFactor = SizingField::LongestEdgeInDelta / SizingField::VoxelDiagonal - 1e-3;
 constexpr double MostFactor = 1.99;
-/** Mean edge lengths in units of level 0: the shortest of level -1, the longest of other levels. */
+/** Mean edge lengths in units of level 0: shortest of level -1, longest of other levels. */
 constexpr double ShortestInUnits = MeanEdgeInDelta * LeastRatio / MostFactor;
 constexpr double LongestInUnits = MeanEdgeInDelta * MostRatio;
 
@@ -31,7 +30,7 @@ void CheckLength(double edgeLength)
 {
   if (!(edgeLength > 0.) || !std::isfinite(edgeLength))
   {
-    Refuse("Edge Length is ", edgeLength, "; it must be 0 (automatic) or a length.");
+    ThrowInvalidArgument("Edge Length is ", edgeLength, "; it must be 0 (automatic) or a length.");
   }
 }
 
@@ -45,7 +44,8 @@ EdgeLengthPlan PlanOf(double delta, int last, const EdgeLengthPreferences& prefe
 {
   const double preferred = preferences.Pyramid.ReductionFactor;
   const double ratio = RatioOf(preferences);
-  const auto levels = [](double scale, double factor) { return std::log(scale) / std::log(factor); };
+  const auto levels = [](double scale, double factor)
+  { return std::log(scale) / std::log(factor); };
   int level = -1;
   double most = MostFactor;
   if (delta >= LeastRatio)
@@ -59,7 +59,7 @@ EdgeLengthPlan PlanOf(double delta, int last, const EdgeLengthPreferences& prefe
     {
       return { 0, preferred, delta };
     }
-    // The image must be large enough for this level at another factor, too.
+    // The image must be large enough for this level with the adjusted factor.
     most = std::min(most, std::pow(preferred, static_cast<double>(last) / level));
   }
   const double t = std::min(std::max(std::pow(delta / ratio, 1. / level), LeastFactor), most);
@@ -77,8 +77,8 @@ EdgeLengthPlan PlanEdgeLength(double edgeLength, const LevelSize& size,
   const double longest = LongestInUnits * levels.back().Unit;
   if (!(edgeLength >= shortest && edgeLength <= longest))
   {
-    Refuse("Edge Length is ", edgeLength, ", but edges of this image can have mean lengths of ",
-      shortest, " to ", longest,
+    ThrowInvalidArgument("Edge Length is ", edgeLength,
+      ", but edges of this image can have mean lengths of ", shortest, " to ", longest,
       edgeLength < shortest
         ? ". Resample the image more finely, or give a longer one."
         : ". Give a shorter one, or allow coarser levels by Minimum Level Size.");
@@ -97,21 +97,24 @@ EdgeLengthPlan PlanEdgeLength(
     return PlanOf(delta / units[0], 0, preferences);
   }
   const double unit = delta / RatioOf(preferences);
-  const auto nearest = std::min_element(units.begin(), units.end(), [unit](double a, double b)
+  const auto nearest = std::min_element(units.begin(), units.end(),
+    [unit](double a, double b)
     { return std::abs(std::log(a / unit)) < std::abs(std::log(b / unit)); });
   const double ratio = delta / *nearest;
   if (ratio >= LeastRatio && ratio <= MostRatio)
   {
-    return { static_cast<int>(nearest - units.begin()), preferences.Pyramid.ReductionFactor, ratio };
+    return { static_cast<int>(nearest - units.begin()), preferences.Pyramid.ReductionFactor,
+      ratio };
   }
-  std::string possible =
-    Join(ShortestInUnits * units[0], " to ", LongestInUnits * units[0]);
+  std::string possible = Join(ShortestInUnits * units[0], " to ", LongestInUnits * units[0]);
   for (std::size_t level = 1; level < units.size(); ++level)
   {
     possible += Join(level + 1 < units.size() ? ", " : " or ",
       MeanEdgeInDelta * LeastRatio * units[level], " to ", LongestInUnits * units[level]);
   }
-  Refuse("Edge Length is ", edgeLength, ", but with the levels of this pyramid edges can have mean "
-    "lengths of ", possible, ". Give one of these, or the image instead of its pyramid.");
+  ThrowInvalidArgument("Edge Length is ", edgeLength,
+    ", but with the levels of this pyramid edges can have mean "
+    "lengths of ",
+    possible, ". Give one of these, or the image instead of its pyramid.");
 }
 }

@@ -4,7 +4,7 @@
 #define volumicEvolution_h
 
 #include "Core/Evolution/Dynamics.h"
-#include "Core/Evolution/LostBoundary.h"
+#include "Core/Evolution/MissedBoundary.h"
 #include "Core/Evolution/SurfaceEvolution.h"
 #include "Core/Evolution/SurfaceIteration.h"
 #include "Core/Image/Field.h"
@@ -18,10 +18,10 @@
 
 namespace volumic
 {
-// What EvolveOnLevel() is made of. All is called on the thread that calls it, but for what a visit
-// calls, which is called on any thread.
+// Parts of EvolveOnLevel(). Functions run on its calling thread, except those that a block pass
+// calls.
 
-/** A surface on its way on a level, and what its steps share. */
+/** State of the evolution on a level. */
 struct Evolution
 {
   Evolution(const LevelTask& task, EvolutionHistory& history, Executor& executor, Monitor& monitor)
@@ -32,46 +32,46 @@ struct Evolution
   const LevelTask Task;
   Executor& Threads;
   Monitor* Listener;
-  bool Stopped = false;   ///< The listener has said stop; it is not asked again.
-  Monitor::Status Status; ///< As it was told last.
+  bool Stopped = false;   ///< cancelled by the listener, which is not called again
+  Monitor::Status Status; ///< last report to the listener
   EvolutionHistory& History;
   SurfaceState State;
   std::unique_ptr<Field> TheField;
-  std::unique_ptr<Dynamics> Motion;      ///< In the field.
-  std::unique_ptr<SurfaceBlocks> Blocks; ///< While the surface lies on a level, else null.
-  SurfaceComponents Components;          ///< As they were labelled last.
-  int Unchecked = 1; ///< Starts, cuts and deletions since components were judged from outside in.
-  LostParts Lost;
-  LostBoundary Boundary;     ///< Of the parts that were lost when it came to the level.
-  bool HasDescended = false; ///< See DescendField.
+  std::unique_ptr<Dynamics> Motion;
+  std::unique_ptr<SurfaceBlocks> Blocks; ///< null before the surface is at the level
+  SurfaceComponents Components;          ///< as labelled last
+  int Unchecked = 1; ///< starts, cuts and deletions since the last test for inverted components
+  MissedParts Missed;
+  MissedBoundary Boundary;   ///< of the parts missed by the coarser level
+  bool HasDescended = false; ///< see DescendField()
   Verdict Verified;
 
   /**
-   * The one question of all work on a level: the share of an activity that is done, of iterations
-   * how many of the sweep's.
+   * Report the fraction done of an activity (for iterations: their number in the sweep). Return
+   * false if the run is cancelled.
    */
   bool GoOn(Monitor::Activity doing, double share);
-  /** The same for work whose own shares lie between two of the activity's. */
-  ProgressQuestion QuestionOf(Monitor::Activity doing, double from = 0., double to = 1.);
-  /** Of the voxels as they are now. */
+  /** Return a callback that maps fractions in [0, 1] to [from, to] of the activity. */
+  ProgressCallback ProgressCallbackOf(Monitor::Activity doing, double from = 0., double to = 1.);
+  /** Create TheField from the current voxels. */
   void MakeField();
-  /** Between sweeps. */
-  void LookAt();
+  /** Call Task.Observe, between sweeps. */
+  void Observe();
   SurfaceResult Result();
 };
 
-// EvolutionStart.cxx: comes to a level.
+// EvolutionStart.cxx: start on a level.
 
-/** @return false if it was stopped before anything was done: the rest is as it was */
-bool ComeToLevel(Evolution& evolution, SurfaceAtRest& rest);
-/** Forgets all but the mesh, numbers its vertices along a curve, and lays it out. */
+/** Start or divide the surface. @return false if cancelled before any change of `converged` */
+bool ReachLevel(Evolution& evolution, ConvergedSurface& converged);
+/** Discard all but the mesh, renumber its vertices along a space-filling curve, call LayOut(). */
 void Renumber(Evolution& evolution);
-/** Makes grid, blocks and labels of a mesh of which nothing else is known; splits long edges. */
+/** Compute grid, blocks and labels of a mesh; split long edges. */
 void LayOut(Evolution& evolution);
 void LayGrid(Evolution& evolution);
 void ActivateAll(Evolution& evolution);
 
-/** Call work(v) for all vertices that are alive, on several threads. */
+/** Call work(v) for all vertices in parallel. */
 template <typename Work>
 void ForAlive(const SurfaceMesh& mesh, Executor& executor, const Work& work)
 {
@@ -81,7 +81,7 @@ void ForAlive(const SurfaceMesh& mesh, Executor& executor, const Work& work)
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        if (mesh.IsAlive(v)) // Other places may take no memory.
+        if (mesh.IsAlive(v)) // Unused slots may take no memory.
         {
           work(v);
         }
@@ -90,78 +90,77 @@ void ForAlive(const SurfaceMesh& mesh, Executor& executor, const Work& work)
 }
 std::vector<int> AliveVertices(const Evolution& evolution);
 
-// GivenSurface.cxx: makes a given surface ready.
+// InitialSurfaceCheck.cxx: check and remesh an initial surface.
 
 void TakeGiven(Evolution& evolution, const IndexedSurface& surface);
-/** Another mesh of it. */
 void TakeRemeshed(Evolution& evolution, const IndexedSurface& surface);
 
-// EvolutionDivision.cxx: to the next level's edge lengths.
+// EvolutionDivision.cxx: subdivide to the edge length of the level.
 
 /**
- * Before a division: from the isopotential of the level before onto that of this one, as far as
- * verified passes lead, while there are a third as many vertices. @param delta of the level before
+ * Move the surface of the coarser level onto the isosurface of this one by verified passes, before
+ * the division triples the number of vertices. @param delta of the coarser level
  */
 void DescendField(Evolution& evolution, double delta);
-/** @return whether nothing asked to stop */
+/** @return false if cancelled */
 bool DivideAll(Evolution& evolution, int divisions);
 bool HasEdgeTooLong(const Evolution& evolution);
 
-// EvolutionGrading.cxx: divides here and there, and makes edges longer where it is flat.
+// EvolutionGrading.cxx: local division, and graded edge lengths.
 
 /**
- * From a level of this delta: only where what is seen on the new one asks for shorter edges.
- * @return false where a tolerance asks for them at more than half of the vertices: then all is to
- * be divided, and laid out
+ * Subdivide only where this level requires shorter edges. @param delta of the coarser level
+ * @return false if a tolerance requires them at more than half of the vertices: call DivideAll()
+ * and LayOut() then
  */
-bool DivideWhereWanted(Evolution& evolution, double delta);
-/** The same about parts that are lost, so that these can be enclosed beside it. */
-void DivideNear(Evolution& evolution, const LostBoundary& lost);
+bool DivideWhereRequested(Evolution& evolution, double delta);
+/** Subdivide near missed parts, to leave room for recovery surfaces. */
+void DivideNear(Evolution& evolution, const MissedBoundary& missed);
 void Grade(Evolution& evolution);
 
-// EvolutionVisits.cxx: visits of blocks, and sums over them.
+// EvolutionPasses.cxx: block passes, and sums over blocks.
 
-/** A sweep over blocks. */
+/** Options of a sweep over all blocks. */
 struct Sweep
 {
   Monitor::Activity Doing = Monitor::Activity::Iterating;
-  double From = 0.;       ///< The share of the activity that is done before the sweep, and
-  double To = 1.;         ///< after it.
-  bool OnlyActive = true; ///< Blocks in which nothing may move are left out.
-  bool IsAsked = true;    ///< The listener is told, and may stop it.
+  double From = 0.;        ///< fraction of the activity done before the sweep
+  double To = 1.;          ///< and after it
+  bool OnlyActive = true;  ///< Skip blocks without active vertices.
+  bool IsMonitored = true; ///< Report to the listener, which may cancel.
 };
 
-void MakeBlocks(Evolution& evolution);   ///< Those of the mesh as it is.
-void ForgetBlocks(Evolution& evolution); ///< Before the mesh is numbered otherwise.
+void MakeBlocks(Evolution& evolution);
+void ForgetBlocks(Evolution& evolution); ///< Call it before the mesh is renumbered.
 /**
- * After a stop some blocks were not visited; the surface is valid all the same. State.Counts is
- * then the sum of what the visits have edited. @param visit called on any thread
+ * Call run(pass) for each block, on any thread, and add the counters of its edits to State.Counts.
+ * If cancelled, some blocks have no pass; the surface is valid nevertheless.
  */
-void VisitBlocks(
-  Evolution& evolution, const Sweep& sweep, const std::function<void(BlockVisit& visit)>& visit);
-/** A few iterations of evolution, which the history tells of; labels the components. */
+void RunBlockPasses(
+  Evolution& evolution, const Sweep& sweep, const std::function<void(BlockPass& pass)>& run);
+/** Run a sweep of iterations with rows in the history, and label the components. */
 void RunSweep(Evolution& evolution);
-/** Some iterations in each block with active vertices; the history has no rows of them. */
+/** Run iterations without rows in the history, in blocks with active vertices. */
 void Relax(Evolution& evolution, SurfaceIteration::Mode mode, int iterations, const Sweep& sweep);
-/** Splits all edges that are too long. @param sweep after a stop some long edges are left */
+/** Split all edges that are too long. If cancelled, some remain. */
 void SplitLongEdges(Evolution& evolution, Sweep sweep);
 void LabelComponents(Evolution& evolution);
-/** Labels them, too. */
+/** Delete components that are inside out, and label the others. */
 void DeleteInsideOut(Evolution& evolution);
 SurfaceNumbers NumbersOf(const Evolution& evolution);
 double VolumeOf(const Evolution& evolution);
 double AreaOf(const Evolution& evolution);
 
-// EvolutionRun.cxx: until it rests.
+// EvolutionRun.cxx: evolve until convergence.
 
 /**
- * Makes those active that are further than this (in delta) off the isopotential, and those beside
- * them; all others rest. @return whether there are any
+ * Activate vertices farther than `least` (in delta) from the isosurface, and their neighbours;
+ * deactivate all others. @return whether there are any
  */
 bool ActivateWhereOff(Evolution& evolution, float least);
 /**
- * Sweeps until the level rests, goes in circles, has had its iterations, vanishes or is stopped,
- * and then what ends a level, also after a stop: nothing inside out or unverified stays.
+ * Run sweeps until one of the stop reasons applies. Then finish the level: optimize and verify the
+ * surface, and delete components that are inside out. Also finishes a cancelled level.
  */
 StopReason RunLevel(Evolution& evolution);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The way of a surface to the next level's edge lengths.
+// Subdivision of the surface to the edge lengths of the next level.
 
 #include "Core/Common/Select.h"
 #include "Core/Evolution/Evolution.h"
@@ -20,11 +20,11 @@ namespace volumic
 {
 namespace
 {
-/** Of a division: finds edges that are to be kept. */
+/** Find the edges that a division must not flip. */
 class EdgesToKeep
 {
 public:
-  /** More and more edges are kept in these, until none is flipped in the last. */
+  /** Rounds with more and more kept edges; the last one keeps all. */
   static constexpr int Rounds = 6;
 
   EdgesToKeep(const SurfaceMesh& mesh, const DivisionNumbers& numbers, KeptEdges& kept)
@@ -33,8 +33,9 @@ public:
   }
 
   /**
-   * Keeps the edges whose flips made faces that intersect; from the second round on others about
-   * them, too, and all in the last one; then those at rings that would overflow.
+   * Keep the edges whose flips create intersecting faces. From the second round on, keep edges
+   * around them, too, and all edges in the last round. Then keep edges at rings that would
+   * overflow.
    */
   void KeepAbout(const std::vector<Proximity::FacePair>& pairs, int round);
 
@@ -45,9 +46,9 @@ private:
     const int olds = this->Mesh.Size();
     return v >= olds && v < olds + this->Numbers.Faces;
   }
-  /** The old face that a new vertex is the centre of. */
+  /** Return the old face whose centre a new vertex is. */
   Face FaceOf(int centre) const;
-  /** Keeps the edges of old faces of which corners of a new one are the centres. @return their
+  /** Keep the edges of the old faces whose centres are corners of a new face. @return their
    * corners */
   std::vector<int> KeepOf(const Face& face);
 
@@ -58,7 +59,7 @@ private:
 
 EdgesToKeep::Face EdgesToKeep::FaceOf(int centre) const
 {
-  // Of the last vertex whose faces do not begin behind it.
+  // The last vertex whose faces start at or before this one.
   int number = centre - this->Mesh.Size();
   const LargeVector<int>& first = this->Numbers.FirstFace;
   const auto behind = std::upper_bound(first.begin(), first.end(), number);
@@ -140,10 +141,10 @@ void EdgesToKeep::KeepAbout(const std::vector<Proximity::FacePair>& pairs, int r
   }
 }
 
-/** Sweeps of a descent, and passes in each block; more make no difference to what comes after. */
+/** Sweeps of a descent, and passes per block. More have no effect on the result. */
 constexpr int DescendingSweeps = 2;
 constexpr int DescendingPasses = 2;
-/** Of what is told of a division. */
+/** Fraction of the progress of a division. */
 constexpr double DescendingShare = 0.3;
 
 /** Call visit(w, squared length) for each edge from v to a larger vertex. */
@@ -164,7 +165,8 @@ void VisitEdges(const SurfaceMesh& mesh, int v, const Visit& visit)
 float LongestEdge(const Evolution& e)
 {
   const SurfaceMesh& mesh = e.State.Mesh;
-  return std::sqrt(JoinVertices(mesh, e.Threads, 0.f,
+  return std::sqrt(JoinVertices(
+    mesh, e.Threads, 0.f,
     [&mesh](int v, float& longest)
     { VisitEdges(mesh, v, [&](int, float squared) { longest = std::max(longest, squared); }); },
     [](float a, float b) { return std::max(a, b); }));
@@ -172,7 +174,7 @@ float LongestEdge(const Evolution& e)
 
 std::vector<Proximity::FacePair> FindIntersections(Evolution& e)
 {
-  // A division leaves some edges longer than verification may rely on; it looks further for them.
+  // A division leaves some edges longer than eq. (1) allows. The verification extends its reach.
   SurfaceState& s = e.State;
   const SizingField sizing = s.Sizing;
   s.Sizing = sizing.ForEdgesOf(LongestEdge(e));
@@ -185,9 +187,8 @@ std::vector<Proximity::FacePair> FindIntersections(Evolution& e)
 
 void DivideOnce(Evolution& e)
 {
-  // The division flips edges of the old surface; in narrow places these may pass through each
-  // other. Such edges are kept, then more and more about them, and all of them at last, which
-  // leaves the old surface, with more vertices.
+  // Flips of old edges may create intersections in thin regions. Such edges are kept, then more and
+  // more around them, finally all, which preserves the old surface with more vertices.
   ForgetBlocks(e);
   SurfaceMesh old = std::exchange(e.State.Mesh, SurfaceMesh());
   old.Reorder(SpaceFillingOrder(old, e.State.Sizing.Smallest(), e.Threads), e.Threads);
@@ -214,7 +215,7 @@ void DescendField(Evolution& e, double delta)
 {
   const SizingField sizing = e.State.Sizing;
   e.State.Sizing = SizingField(static_cast<float>(delta));
-  Renumber(e); // In an order that does not depend on what has been done before.
+  Renumber(e); // The order must not depend on earlier edits.
   ActivateAll(e);
   for (int sweep = 0; sweep < DescendingSweeps && !e.Stopped; ++sweep)
   {
@@ -248,9 +249,10 @@ bool DivideAll(Evolution& e, int divisions)
 
 bool HasEdgeTooLong(const Evolution& e)
 {
-  constexpr float share = 1.0001f; // Of the longest that eq. (1) allows.
+  constexpr float share = 1.0001f; // relative to the longest legal edge of eq. (1)
   const SurfaceMesh& mesh = e.State.Mesh;
-  return JoinVertices(mesh, e.Threads, char(0),
+  return JoinVertices(
+           mesh, e.Threads, char(0),
            [&](int v, char& isFound)
            {
              VisitEdges(mesh, v,

@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// A surface is divided only where it is asked for, and where it rests gets longer edges as far as a
-// tolerance allows; in the same visits, with the same verified displacements and edits as everything
-// else.
+// Local division, and longer edges of a converged surface within a tolerance. Both use the same
+// verified displacements and edits in block passes as the evolution.
 
 #include "Core/Common/Select.h"
 #include "Core/Evolution/Evolution.h"
@@ -19,21 +18,21 @@ namespace volumic
 namespace
 {
 /**
- * By what the sizes may grow at most, round by round: what is measured tells little of edges many
- * times as long. A round takes as long as the whole regularisation.
+ * Largest growth of sizes per round, because measurements do not extrapolate to much longer edges.
+ * A round takes as long as the whole regularisation.
  */
 constexpr float Growths[] = { 2.5f, 1.5f, 1.1f };
-/** Passes in each block after the sizes have changed. */
+/** Passes per block after a change of sizes. */
 constexpr int Passes = 2;
-/** Where more than this share of a surface asks for division all of it is divided: that is faster. */
+/** Above this fraction of vertices, a division of the whole surface is faster. */
 constexpr double MostDivided = 0.5;
-/** Of a division's progress, once it is known where it is wanted. */
+/** Progress of a local division, after the sizes are known. */
 constexpr double HalfDivided = 0.5;
 
-/** @param sweep to split edges, see SplitLongEdges */
+/** @param sweep options of SplitLongEdges() */
 void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& sweep)
 {
-  // What is known of a star that has another size now was found within another reach.
+  // Test results of stars with a changed size are for another reach.
   SurfaceState& s = e.State;
   std::vector<int> stars;
   for (const int v : changed)
@@ -46,7 +45,7 @@ void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& swee
   for (const int v : stars)
   {
     s.Active[v] = 1;
-    s.Drift[v] = SurfaceState::NotExamined;
+    s.MotionSinceTest[v] = SurfaceState::NeverTested;
   }
   s.UpdateShape(stars, e.Threads);
   if (HasEdgeTooLong(e))
@@ -56,12 +55,12 @@ void ApplySizes(Evolution& e, const std::vector<int>& changed, const Sweep& swee
 }
 }
 
-bool DivideWhereWanted(Evolution& e, double delta)
+bool DivideWhereRequested(Evolution& e, double delta)
 {
   SurfaceState& s = e.State;
   ForgetBlocks(e);
   s.Mesh.Reorder(SpaceFillingOrder(s.Mesh, s.Sizing.Smallest(), e.Threads), e.Threads);
-  // Most of it is to keep the edges that it has: so large are the cells of the grid, too.
+  // Most edges keep their length, which determines the cell size of the grid.
   const SizingField fine = s.Sizing;
   s.Sizing = SizingField(static_cast<float>(delta));
   LayGrid(e);
@@ -76,7 +75,7 @@ bool DivideWhereWanted(Evolution& e, double delta)
     s.Sizing = SizingField(s.Sizing.OfLevel());
     return false;
   }
-  // The mesh stays: what is to have shorter edges is split.
+  // Keep the mesh, and split edges where sizes are smaller.
   MakeBlocks(e);
   if (e.GoOn(Monitor::Activity::Dividing, HalfDivided))
   {
@@ -86,21 +85,21 @@ bool DivideWhereWanted(Evolution& e, double delta)
   return true;
 }
 
-void DivideNear(Evolution& e, const LostBoundary& lost)
+void DivideNear(Evolution& e, const MissedBoundary& missed)
 {
   const LevelImage& image = e.Task.Image;
   const VoxelNumbers numbers(image.Size);
-  std::vector<Vector> places;
-  for (const std::int64_t voxel : lost.Voxels())
+  std::vector<Vector> positions;
+  for (const std::int64_t voxel : missed.Voxels())
   {
-    const std::array<int, 3> index = numbers.PlaceOf(voxel);
-    places.emplace_back(static_cast<float>(index[0] * image.Step[0]),
+    const std::array<int, 3> index = numbers.IjkOf(voxel);
+    positions.emplace_back(static_cast<float>(index[0] * image.Step[0]),
       static_cast<float>(index[1] * image.Step[1]), static_cast<float>(index[2] * image.Step[2]));
   }
   GradedSizes sizes(e.State, *e.TheField, e.Task.Grading, e.Threads);
   Sweep sweep;
-  sweep.IsAsked = false;
-  ApplySizes(e, sizes.ShrinkNear(places), sweep);
+  sweep.IsMonitored = false;
+  ApplySizes(e, sizes.ShrinkNear(positions), sweep);
 }
 
 void Grade(Evolution& e)
@@ -112,7 +111,7 @@ void Grade(Evolution& e)
     sizes.Begin(s.Sizing.OfLevel());
   }
   sizes.Widen();
-  MakeBlocks(e); // Wider ones: their bounds are in the largest delta.
+  MakeBlocks(e); // Larger blocks, relative to the largest delta.
   LabelComponents(e);
   for (const int v : AliveVertices(e))
   {

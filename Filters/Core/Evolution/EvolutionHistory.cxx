@@ -64,7 +64,7 @@ void EvolutionHistory::BeginSweep(int vertices, int eulerCharacteristic)
 
 void EvolutionHistory::EndSweep(SweptRows& swept, const SurfaceNumbers& after)
 {
-  // As if all blocks had been in the same iteration: what has changed in each, added up.
+  // Sum the changes of all blocks in the same iteration.
   const double seconds = this->Lap() / static_cast<double>(swept.Rows.size());
   for (std::size_t i = 0; i < swept.Rows.size(); ++i)
   {
@@ -73,7 +73,7 @@ void EvolutionHistory::EndSweep(SweptRows& swept, const SurfaceNumbers& after)
     row.EulerCharacteristic = this->EulerCharacteristic += row.EulerCharacteristic;
     if (i + 1 == swept.Rows.size())
     {
-      row.Vertices = after.Vertices; // Components may have been deleted after the last visit.
+      row.Vertices = after.Vertices; // Components may have been deleted after the last pass.
       row.EulerCharacteristic = after.EulerCharacteristic;
     }
     row.Iteration = static_cast<int>(this->Rows.size()) + 1;

@@ -12,20 +12,19 @@
 namespace volumic
 {
 /**
- * An iteration. Lengths are those of the workspace. Iterations are made in sweeps of five over the
- * blocks (SurfaceBlocks): a row adds up what all blocks did in the same one. MeanEdgeLength and
- * Components are those at the end of the sweep. In the last row of a level Vertices, MeanEdgeLength,
- * EulerCharacteristic and Components are those of the surface that the level hands over.
+ * One iteration, summed over all blocks. Lengths are in the computational space. MeanEdgeLength and
+ * Components are those at the end of the sweep of five iterations. In the last row of a level,
+ * Vertices, MeanEdgeLength, EulerCharacteristic and Components describe the final surface.
  */
 struct HistoryRow
 {
-  int Iteration = 0; ///< Counted over all levels, from 1.
+  int Iteration = 0; ///< over all levels, from 1
   int Level = 0;
   int Vertices = 0;
-  double KineticEnergy = 0.; ///< Mean over vertices of half the squared speed along the normal.
+  double KineticEnergy = 0.; ///< mean over vertices of half the squared normal speed
   double MeanEdgeLength = 0.;
-  double Seconds = 0.; ///< Since the row before; see EvolutionHistory::EndSweep() and EndLevel().
-  double TimeStep = 0.; ///< The longest of all blocks.
+  double Seconds = 0.;  ///< since the previous row
+  double TimeStep = 0.; ///< maximum over all blocks
   int ActiveVertices = 0;
   int Merges = 0;
   int Cuts = 0;
@@ -36,21 +35,20 @@ struct HistoryRow
   int Components = 0;
 
   void Add(const EditCounts& counts);
-  /** Add what another block did in the same iteration. */
+  /** Add another block's part of the same iteration. */
   void Add(const HistoryRow& row);
 };
 
 /**
- * What the iterations of a sweep add to the history, while blocks are visited: of vertices and
- * Euler characteristic by how many there are more.
+ * Rows of a sweep in progress. Vertices and EulerCharacteristic are differences.
  */
 class SweptRows
 {
 public:
   SweptRows(int iterations, int blocks);
-  /** What a visit did in each of the iterations. On any thread. */
+  /** Add the iterations of a block pass. Thread-safe. */
   void Add(int block, const std::vector<HistoryRow>& rows);
-  /** Of each iteration; the kinetic energy, to be summed in the order of the blocks, apart. */
+  /** By iteration. The kinetic energies of all blocks are summed in the order of the blocks. */
   std::vector<HistoryRow> Rows;
   std::vector<std::vector<double>> KineticEnergy;
 
@@ -58,7 +56,7 @@ private:
   std::mutex Adding;
 };
 
-/** A surface between two sweeps, in numbers. */
+/** Numbers of a surface between two sweeps. */
 struct SurfaceNumbers
 {
   int Vertices = 0;
@@ -67,7 +65,7 @@ struct SurfaceNumbers
   double MeanEdgeLength = 0.;
 };
 
-/** Looks on as a surface evolves: a row for each iteration of all levels. */
+/** History of an evolution: a row per iteration of all levels. */
 class EvolutionHistory
 {
 public:
@@ -75,21 +73,21 @@ public:
 
   std::vector<HistoryRow> Rows;
 
-  /** When the time begins that counts to the next row. */
+  /** Set the start of the time that the next row includes. */
   void StartClock(Clock::time_point start) { this->LastLap = start; }
 
   void BeginLevel(int level);
-  /** On the level. */
+  /** Return the number of iterations on the level. */
   int Iterations() const { return this->OfLevel; }
 
   void BeginSweep(int vertices, int eulerCharacteristic);
-  /** Takes the rows of a sweep that is over; they share its seconds, and the first has those before.
+  /** Append the rows of a finished sweep. They share its seconds; the first row has those before.
    */
   void EndSweep(SweptRows& swept, const SurfaceNumbers& after);
-  /** After that the last row tells of the surface as it is handed over. */
+  /** Set the last row to the numbers of the final surface. */
   void Finish(const SurfaceNumbers& regularised);
 
-  /** Add the seconds until now to the last row, when all is done with the surface of a level. */
+  /** Add the seconds until now to the last row, at the end of a level. */
   void EndLevel();
 
 private:
@@ -97,9 +95,9 @@ private:
 
   int Level = 0;
   int OfLevel = 0;
-  int Vertices = 0;            ///< Before the last sweep.
-  int EulerCharacteristic = 0; ///< Likewise.
-  double SecondsBefore = 0.;   ///< The last sweep.
+  int Vertices = 0;            ///< before the last sweep
+  int EulerCharacteristic = 0; ///< before the last sweep
+  double SecondsBefore = 0.;   ///< before the last sweep
   Clock::time_point LastLap = Clock::now();
 };
 }

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
+#include "Core/Evolution/ConvergenceCriterion.h"
 #include "Core/Evolution/CycleCriterion.h"
 #include "Core/Evolution/Evolution.h"
-#include "Core/Evolution/RestCriterion.h"
 #include "Core/Surface/NewFaces.h"
-#include "Core/Surface/SurfacePolish.h"
+#include "Core/Surface/SurfaceOptimization.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,19 +20,19 @@ namespace volumic
 {
 namespace
 {
-/** Of a regularisation, the passes; the rest is the polish. */
+/** Fraction of the passes in a regularisation; the rest is the optimization. */
 constexpr double PassesShare = 0.6;
-/** Sweeps of the regularisation, and passes in each block. */
+/** Sweeps of the regularisation, and passes per block. */
 constexpr int RegularisingSweeps = 3;
 constexpr int SweptPasses = 4;
-/** Vertices that one thread looks at at a time. */
+/** Vertices per span of a parallel loop. */
 constexpr std::size_t VertexGrain = 2048;
 
 StopReason Evolve(Evolution& e)
 {
   const SurfaceOptions& options = e.Task.Options;
   const SurfaceMesh& mesh = e.State.Mesh;
-  RestCriterion rest;
+  ConvergenceCriterion convergence;
   CycleCriterion cycle;
   if (e.HasDescended)
   {
@@ -50,22 +50,22 @@ StopReason Evolve(Evolution& e)
       return StopReason::IterationLimit;
     }
     RunSweep(e);
-    e.LookAt();
+    e.Observe();
     if (!e.GoOn(Monitor::Activity::Iterating, 0.) || mesh.NumberOfVertices() == 0)
     {
       continue;
     }
     if (e.Status.ActiveVertices == 0)
     {
-      return StopReason::Converged; // Nothing would ever move again.
+      return StopReason::Converged; // No vertex would ever move again.
     }
-    if (e.History.Iterations() % RestCriterion::Interval == 0)
+    if (e.History.Iterations() % ConvergenceCriterion::Interval == 0)
     {
       const double volume = VolumeOf(e);
       const double limit = std::max(cube, options.ConvergenceTolerance * std::abs(volume));
-      rest.Add(volume);
+      convergence.Add(volume);
       cycle.Add(volume);
-      if (rest.IsMet(limit))
+      if (convergence.IsMet(limit))
       {
         return StopReason::Converged;
       }
@@ -80,11 +80,11 @@ StopReason Evolve(Evolution& e)
 
 void FitMeanEdge(Evolution& e)
 {
-  // Edges anywhere in [delta, 2.5 delta] are left as they are, so their mean depends on where they
-  // come from. With delta changing slowly the worst of them are collapsed or split first.
+  // All edges in [delta, 2.5 delta] are legal, so their mean depends on the history. A slow change
+  // of delta collapses or splits the worst edges first.
   constexpr int steps = 30;
   constexpr double close = 0.02;
-  constexpr double share = 0.6; // of what is missing, in a step
+  constexpr double share = 0.6; // fraction of the difference per step
   constexpr double longestStep = 0.03;
   SurfaceState& s = e.State;
   const double unit = e.Task.Image.Unit;
@@ -113,7 +113,7 @@ void FitMeanEdge(Evolution& e)
   }
 }
 
-void Polish(Evolution& e)
+void Optimize(Evolution& e)
 {
   SurfaceState& s = e.State;
   const SurfaceOptions& options = e.Task.Options;
@@ -121,22 +121,22 @@ void Polish(Evolution& e)
   {
     return;
   }
-  VisitBlocks(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
-    [&](BlockVisit& visit)
+  RunBlockPasses(e, { Monitor::Activity::Regularising, PassesShare, 1., false },
+    [&](BlockPass& pass)
     {
-      std::vector<int> wanted;
-      for (int v = visit.First; v < visit.End(); ++v)
+      std::vector<int> requested;
+      for (int v = pass.First; v < pass.End(); ++v)
       {
         if (s.Mesh.IsAlive(v))
         {
-          wanted.push_back(v);
+          requested.push_back(v);
         }
       }
       const bool snaps = options.Drive().SnapsTo == SurfaceDrive::Goal::IsoValue;
-      SurfacePolish polish(
-        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &visit.Share);
-      polish.Run(wanted);
-      SurfaceIteration::UpdateChanged(s, polish.TakeChanged());
+      SurfaceOptimization optimize(
+        s, snaps ? e.TheField.get() : nullptr, options.TopologyChanges, &pass.Context);
+      optimize.Run(requested);
+      SurfaceIteration::UpdateChanged(s, optimize.TakeChanged());
     });
   if (s.Counts.Cuts > 0)
   {
@@ -147,7 +147,7 @@ void Polish(Evolution& e)
 
 void Regularise(Evolution& e)
 {
-  // The same verified displacements and edits, driven by shape and residual instead of forces.
+  // Uses the verified displacements and edits of an iteration, but shape and residual as forces.
   SurfaceState& s = e.State;
   ForAlive(s.Mesh, e.Threads,
     [&s](int v)
@@ -162,7 +162,7 @@ void Regularise(Evolution& e)
       { Monitor::Activity::Regularising, PassesShare * sweep / RegularisingSweeps,
         PassesShare * (sweep + 1) / RegularisingSweeps });
   }
-  Polish(e);
+  Optimize(e);
   ForAlive(s.Mesh, e.Threads,
     [&s](int v)
     {
@@ -179,15 +179,15 @@ void DeleteThoseInsideOut(Evolution& e)
   }
 }
 
-void FindMissing(Evolution& e)
+void MeasureMissedBoundary(Evolution& e)
 {
-  const LostBoundary::Missing missing =
+  const MissedBoundary::Missing missing =
     e.Boundary.MissedBy(e.State, AreaOf(e), *e.TheField, e.Threads);
-  e.Lost.Missing = missing.Parts;
-  e.Lost.MissingBoundary = missing.Share;
+  e.Missed.Missing = missing.Parts;
+  e.Missed.MissingBoundary = missing.Share;
 }
 
-/** The last look at what a level hands on: see SurfaceIteration for why it finds nothing. */
+/** Final intersection test of a level. SurfaceIteration explains why it should find nothing. */
 void Verify(Evolution& e)
 {
   e.Verified.Found = static_cast<int>(CountIntersecting(e.State, e.Threads));
@@ -198,15 +198,15 @@ void Verify(Evolution& e)
   }
   ForgetBlocks(e);
   const SurfaceMesh before = e.State.Mesh;
-  e.State.Sizing = SizingField(e.State.Sizing.OfLevel()); // The mesh to come is even.
-  Monitor nobody;                                         // Is asked meanwhile, and says no stop.
+  e.State.Sizing = SizingField(e.State.Sizing.OfLevel()); // The new mesh is uniform.
+  Monitor nobody;                                         // Remeshing cannot be cancelled.
   Monitor* const listener = std::exchange(e.Listener, &nobody);
   const bool wasStopped = std::exchange(e.Stopped, false);
   try
   {
     TakeRemeshed(e, before.ToIndexed(e.Threads));
   }
-  catch (const Refusal&) // The mended surface is too thin or too small for the level.
+  catch (const InvalidArgument&) // The remeshed surface is too thin or too small for the level.
   {
     e.State.Mesh = before;
     LayGrid(e);
@@ -218,7 +218,7 @@ void Verify(Evolution& e)
   e.Stopped = wasStopped;
 }
 
-/** What ends a level at which the surface rests. */
+/** Finish a level with a converged surface. */
 void Finish(Evolution& e)
 {
   if (e.Task.MeanEdgeLength > 0.)
@@ -229,16 +229,16 @@ void Finish(Evolution& e)
     e.Task.Grading.HasTolerance() && !e.Stopped && e.State.Mesh.NumberOfVertices() > 0;
   if (isGraded)
   {
-    FindMissing(e); // Before: it asks for vertices that are near.
+    MeasureMissedBoundary(e); // Before grading, because it tests for near vertices.
     Grade(e);
   }
   Regularise(e);
-  DeleteThoseInsideOut(e); // The polish may have cut.
+  DeleteThoseInsideOut(e); // The optimization may have cut.
   Verify(e);
   e.History.Finish(NumbersOf(e));
   if (!isGraded)
   {
-    FindMissing(e);
+    MeasureMissedBoundary(e);
   }
   ForgetBlocks(e);
 }
@@ -278,7 +278,7 @@ StopReason RunLevel(Evolution& e)
   {
     Verify(e);
     e.History.Finish(NumbersOf(e));
-    FindMissing(e);
+    MeasureMissedBoundary(e);
     ForgetBlocks(e);
     return reason;
   }

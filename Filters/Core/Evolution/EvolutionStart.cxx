@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Box.h"
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Select.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Evolution/InitialSurface.h"
-#include "Core/Evolution/LostParts.h"
+#include "Core/Evolution/MissedParts.h"
 #include "Core/Mesh/SurfaceCheck.h"
 
 #include <algorithm>
@@ -38,30 +38,33 @@ Box BoxOfGrid(const Evolution& e)
     Vector(static_cast<float>(image.Size[0] * image.Step[0]),
       static_cast<float>(image.Size[1] * image.Step[1]),
       static_cast<float>(image.Size[2] * image.Step[2])) };
-  const Box all = JoinVertices(mesh, e.Threads, ofImage,
-    [&mesh](int v, Box& box) { box = box.With({ mesh.Position[v], mesh.Position[v] }); },
+  const Box all = JoinVertices(
+    mesh, e.Threads, ofImage,
+    [&mesh](int v, Box& box) {
+      box = box.With({ mesh.Position[v], mesh.Position[v] });
+    },
     [](const Box& a, const Box& b) { return a.With(b); });
   return all.Grown(2 * e.State.Sizing.Largest());
 }
 
-LostPartCover FindParts(
-  Evolution& e, PartKind kind, int minimumSize, CoverShape shape, double from, double to)
+RecoverySurfaces FindParts(
+  Evolution& e, PartKind kind, int minimumSize, RecoveryShape shape, double from, double to)
 {
-  const auto look = [&]
+  const auto find = [&]
   {
-    return FindLostParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
-      e.QuestionOf(Monitor::Activity::Recovering, from, to));
+    return FindMissedParts(e.State, *e.TheField, kind, minimumSize, shape, e.Threads,
+      e.ProgressCallbackOf(Monitor::Activity::Recovering, from, to));
   };
-  LostPartCover cover = look();
-  if (cover.Found > 0 && e.Task.Options.RecoverLostParts && e.State.Sizing.IsGraded())
+  RecoverySurfaces recovery = find();
+  if (recovery.Found > 0 && e.Task.Options.RecoverMissedParts && e.State.Sizing.IsGraded())
   {
-    DivideNear(e, cover.Boundary); // Else nothing that is near would be clear of it.
-    cover = look();
+    DivideNear(e, recovery.Boundary); // Otherwise there is no room for near recovery surfaces.
+    recovery = find();
   }
-  return cover;
+  return recovery;
 }
 
-/** Adds a cover, or, where it intersects something, what is free of that of a safe one. */
+/** Add recovery surfaces. Intersecting components are replaced by those of RecoveryShape::Safe. */
 template <typename MakeSafe>
 void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
 {
@@ -76,42 +79,43 @@ void Enclose(Evolution& e, const IndexedSurface& even, const MakeSafe& makeSafe)
   ++e.Unchecked;
 }
 
-/** Encloses what the surface has lost. @param isStart all of the object, however small its parts */
+/** Recover missed parts. @param isStart start with all parts of the object, of any size */
 void Recover(Evolution& e, bool isStart = false)
 {
   const SurfaceOptions& options = e.Task.Options;
-  // Without an isopotential there is no object's side to look for.
+  // Without an iso-value the object is undefined.
   if (!options.Drive().HasObject && !isStart)
   {
     return;
   }
-  const bool recovers = options.RecoverLostParts || isStart;
-  const bool hasCavities = options.RecoverLostParts && options.RecoverCavities && !isStart;
+  const bool recovers = options.RecoverMissedParts || isStart;
+  const bool hasCavities = options.RecoverMissedParts && options.RecoverCavities && !isStart;
   const int size = isStart ? 1 : options.MinimumPartSize;
   const double objectShare = hasCavities ? 0.5 : 1.;
-  LostPartCover objects = FindParts(e, PartKind::Object, size, CoverShape::Even, 0., objectShare);
-  LostPartCover cavities;
+  RecoverySurfaces objects =
+    FindParts(e, PartKind::Object, size, RecoveryShape::Even, 0., objectShare);
+  RecoverySurfaces cavities;
   if (hasCavities && !e.Stopped)
   {
-    cavities = FindParts(e, PartKind::Cavity, size, CoverShape::Even, objectShare, 1.);
+    cavities = FindParts(e, PartKind::Cavity, size, RecoveryShape::Even, objectShare, 1.);
   }
   if (e.Stopped)
   {
     return;
   }
-  e.Lost.Found = objects.Found;
-  e.Lost.Enclosed = recovers ? objects.Covered : 0;
-  e.Lost.FoundCavities = cavities.Found;
-  e.Lost.EnclosedCavities = cavities.Covered;
+  e.Missed.Found = objects.Found;
+  e.Missed.Enclosed = recovers ? objects.Enclosed : 0;
+  e.Missed.FoundCavities = cavities.Found;
+  e.Missed.EnclosedCavities = cavities.Enclosed;
   e.Boundary.Add(objects.Boundary);
   e.Boundary.Add(cavities.Boundary);
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
-    const LostPartCover& cover = kind == PartKind::Object ? objects : cavities;
-    if (recovers && cover.Covered > 0)
+    const RecoverySurfaces& recovery = kind == PartKind::Object ? objects : cavities;
+    if (recovers && recovery.Enclosed > 0)
     {
-      Enclose(e, cover.Surface,
-        [&] { return FindParts(e, kind, size, CoverShape::Safe, 1., 1.).Surface; });
+      Enclose(e, recovery.Surface,
+        [&] { return FindParts(e, kind, size, RecoveryShape::Safe, 1., 1.).Surface; });
     }
   }
 }
@@ -119,8 +123,8 @@ void Recover(Evolution& e, bool isStart = false)
 void PlaceSeeds(Evolution& e, const std::vector<Point>& centres)
 {
   const double delta = e.State.Sizing.OfLevel();
-  const double wanted = e.Task.Options.SeedRadius;
-  const double radius = std::max(wanted > 0. ? wanted : 1.2 * delta, SmallestSeed * delta);
+  const double requested = e.Task.Options.SeedRadius;
+  const double radius = std::max(requested > 0. ? requested : 1.2 * delta, SmallestSeed * delta);
   for (const Point& centre : ChooseSeeds(*e.TheField, centres, 2. * radius + 1.6 * delta))
   {
     e.State.Mesh.Append(DividedIcosahedron(centre, radius, 2. * delta));
@@ -143,7 +147,8 @@ void Start(Evolution& e, const SurfaceStart& start)
     Renumber(e);
     Recover(e, isIso);
   }
-  const bool isEnclosed = e.Lost.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
+  const bool isEnclosed =
+    e.Missed.Enclosed > 0 || (start.From == Kind::EnclosingParts && e.Stopped);
   if (start.From == Kind::Surface)
   {
     TakeGiven(e, start.Surface);
@@ -152,8 +157,9 @@ void Start(Evolution& e, const SurfaceStart& start)
   {
     if (!isEnclosed)
     {
-      Refuse("there is no isosurface to start from: no voxel of this level lies in the object. "
-             "Choose another Iso Value, a finer Coarsest Level, or another Initialization.");
+      ThrowInvalidArgument(
+        "there is no isosurface to start from: no voxel of this level lies in the object. "
+        "Choose another Iso Value, a finer Coarsest Level, or another Initialization.");
     }
     e.HasDescended = true;
     ActivateWhereOff(e, Dynamics::LeftOff);
@@ -170,26 +176,26 @@ void Start(Evolution& e, const SurfaceStart& start)
   }
 }
 
-void Divide(Evolution& e, const SurfaceAtRest& rest)
+void Divide(Evolution& e, const ConvergedSurface& converged)
 {
-  e.Unchecked = rest.Unchecked;
-  const double coarse = rest.Delta;
+  e.Unchecked = converged.Unchecked;
+  const double coarse = converged.Delta;
   Enter(e);
-  // As many divisions as bring delta nearest to the new one: one where the pyramid's factor is
-  // the mesh's, sqrt 3.
+  // The number of divisions that brings delta nearest to the new one: 1 for a pyramid factor of
+  // sqrt 3.
   const int divisions = static_cast<int>(std::lround(
     std::log(coarse / e.State.Sizing.OfLevel()) / std::log(SizingField::DivisionFactor)));
-  // After each of these steps the surface is one to hand over.
-  const bool isGraded = e.Task.Grading.IsWanted();
-  // What is too thin for the undivided mesh is lost in a descent, and must be found again. Beyond
-  // the image the field is that of the level before.
-  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverLostParts;
+  // After each of these steps the surface is a valid result.
+  const bool isGraded = e.Task.Grading.IsRequested();
+  // Parts that are too thin for the undivided mesh vanish in a descent, and must be recovered.
+  // Outside the image the field is that of the coarser level.
+  const bool descends = e.Task.Options.Drive().IsPredictable && e.Task.Options.RecoverMissedParts;
   if (descends && !isGraded && divisions > 0 && e.Task.Level >= 0)
   {
     DescendField(e, coarse);
   }
   bool goesOn = true;
-  if (!isGraded || divisions == 0 || !DivideWhereWanted(e, coarse))
+  if (!isGraded || divisions == 0 || !DivideWhereRequested(e, coarse))
   {
     goesOn = DivideAll(e, divisions);
   }
@@ -220,7 +226,7 @@ void LayOut(Evolution& e)
   LayGrid(e);
   MakeBlocks(e);
   Sweep sweep;
-  sweep.IsAsked = false;
+  sweep.IsMonitored = false;
   SplitLongEdges(e, sweep);
   LabelComponents(e);
 }
@@ -244,21 +250,21 @@ void ActivateAll(Evolution& e)
   ForAlive(s.Mesh, e.Threads, [&s](int v) { s.Active[v] = 1; });
 }
 
-bool ComeToLevel(Evolution& e, SurfaceAtRest& rest)
+bool ReachLevel(Evolution& e, ConvergedSurface& converged)
 {
   if (e.Task.Start)
   {
     Start(e, *e.Task.Start);
     return true;
   }
-  std::swap(e.State.Mesh, rest.Mesh);
-  e.Status.Level = rest.Level;
+  std::swap(e.State.Mesh, converged.Mesh);
+  e.Status.Level = converged.Level;
   if (!e.GoOn(Monitor::Activity::Regularising, 1.))
   {
-    std::swap(e.State.Mesh, rest.Mesh);
+    std::swap(e.State.Mesh, converged.Mesh);
     return false;
   }
-  Divide(e, rest);
+  Divide(e, converged);
   return true;
 }
 }

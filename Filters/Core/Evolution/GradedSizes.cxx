@@ -3,7 +3,7 @@
 #include "Core/Evolution/GradedSizes.h"
 
 #include "Core/Evolution/Evolution.h"
-#include "Core/Image/WayToZero.h"
+#include "Core/Image/DistanceToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
 
 #include <algorithm>
@@ -17,60 +17,57 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
+/** Vertices per span of a parallel loop. */
 constexpr std::size_t VertexGrain = 2048;
 /**
- * Share of the tolerance that is aimed at: the regularisation moves vertices along the surface. With
- * 1 a tenth fewer vertices keep it at 97 % of the points of GradedSurface.HasFewerTriangles*.
+ * Target, as a fraction of the tolerance, because the regularisation moves vertices along the
+ * surface. With 1 a tenth fewer vertices keep it at 97 % of the points of
+ * GradedSurface.HasFewerTriangles*.
  */
 constexpr float AimedShare = 0.8f;
-/** The least factor of a change: a level's, so that an edge is split into two or three. */
+/** Smallest factor of a change: that of a level, so that an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;
 /**
- * How far from the isopotential of a finer level a vertex may be, in units of that level, before
- * the surface is divided there: something new has come in sight.
+ * Distance of a vertex to the isosurface of a finer level, in units of that level, above which the
+ * surface is divided there: the level shows new features.
  */
 constexpr float MostOffset = 0.5f;
 /**
- * From a lost voxel to what must have the least delta for a part about it to be enclosed, in that:
- * twice the circumradius of a cell of the cover, and the longest reach. See FindLostParts.
+ * Radius around a missed voxel in which the smallest delta is required to recover its part, in
+ * delta: twice the circumradius of a cell of the recovery lattice, and the longest reach.
  */
-constexpr float NearLostInDelta = 9.f;
-/** Changes of a size that are worth no visit, as a share of it. */
+constexpr float NearMissedInDelta = 9.f;
+/** Relative change of a size that is ignored. */
 constexpr float SmallChange = 0.02f;
 /**
- * Thickness of a wall in delta of its vertices, at least: sqrt 3 times what eq. (1) wants between
- * them. What would intersect is refused in any case; in thinner walls too much would be.
+ * Smallest thickness of a wall in delta of its vertices: sqrt 3 times their least distance by eq.
+ * (1). Intersections are rejected in any case; in thinner walls too many edits would be.
  */
 constexpr float WallInDelta = 2.5f;
-/** Of what is looked through for walls, in the least delta. */
+/** Step of the search for walls, in the smallest delta. */
 constexpr float WallStep = 0.5f;
-/** How far the isopotential is looked for, in units of the level or tolerances. */
+/** Range of the search for the isosurface, in units of the level or tolerances. */
 constexpr float FurthestInUnits = 2.f;
 constexpr float FurthestInTolerances = 3.f;
 }
 
 GradedSizes::GradedSizes(
   SurfaceState& state, const Field& field, const Grading& grading, Executor& executor)
-  : State(state)
-  , TheField(field)
-  , Wanted(grading)
-  , Threads(executor)
-  , Near(grading.HasTolerance()
-        ? static_cast<float>(grading.Tolerance)
-        : MostOffset * static_cast<float>(field.Image().Unit))
-  , Least(state.Sizing.OfLevel())
-  , Most(static_cast<float>(
-      grading.Growth(SizingField::LongestEdgeInDelta * static_cast<double>(state.Sizing.OfLevel()))) *
+  : State(state), TheField(field), Requested(grading), Threads(executor),
+    Near(grading.HasTolerance() ? static_cast<float>(grading.Tolerance)
+                                : MostOffset * static_cast<float>(field.Image().Unit)),
+    Least(state.Sizing.OfLevel()),
+    Most(static_cast<float>(grading.Growth(
+           SizingField::LongestEdgeInDelta * static_cast<double>(state.Sizing.OfLevel()))) *
       state.Sizing.OfLevel())
 {
 }
 
 void GradedSizes::Begin(float delta)
 {
-  // A surface that evolves brings parts together whose sizes know nothing of each other.
+  // Parts of an evolving surface approach each other independently of their sizes.
   constexpr float any = 1.f;
-  const float most = this->Wanted.HasTolerance() ? this->Most : delta;
+  const float most = this->Requested.HasTolerance() ? this->Most : delta;
   const float first = std::max(this->Least, std::min(delta, most));
   this->State.Size.Fill(first);
   this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), first, any);
@@ -78,14 +75,14 @@ void GradedSizes::Begin(float delta)
 
 void GradedSizes::Widen()
 {
-  this->State.Sizing = this->State.Sizing.Graded(this->State.Size.AsVector(), this->Most,
-    static_cast<float>(this->Wanted.Gradation));
+  this->State.Sizing = this->State.Sizing.Graded(
+    this->State.Size.AsVector(), this->Most, static_cast<float>(this->Requested.Gradation));
 }
 
 float GradedSizes::Furthest() const
 {
   return std::max(FurthestInUnits * static_cast<float>(this->TheField.Image().Unit),
-    FurthestInTolerances * static_cast<float>(this->Wanted.Tolerance));
+    FurthestInTolerances * static_cast<float>(this->Requested.Tolerance));
 }
 
 float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal) const
@@ -96,24 +93,24 @@ float GradedSizes::SignedDistanceAt(const Vector& position, const Vector& normal
   {
     return -near;
   }
-  // Where the image is steeper, or flatter, than here that is a guess: look.
-  return SignedWayToZero(position, normal, sample.Value, this->Furthest(),
-    [this](const Vector& place) { return this->TheField.ValueAt(place); });
+  // The estimate fails where the slope changes: search.
+  return SignedDistanceToZero(position, normal, sample.Value, this->Furthest(),
+    [this](const Vector& position) { return this->TheField.ValueAt(position); });
 }
 
-template <typename Look>
-void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const
+template <typename Visit>
+void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Visit& visit) const
 {
-  const LargeVector<Vector>& place = this->State.Mesh.Position;
+  const LargeVector<Vector>& position = this->State.Mesh.Position;
   this->State.Mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
-      look((place[a] + place[b] + place[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
+      visit((position[a] + position[b] + position[c]) * (1.f / 3.f), std::array<int, 3>{ a, b, c });
       for (const auto& [u, v] : { std::pair<int, int>{ a, b }, { b, c }, { c, a } })
       {
-        if (u < v) // Of the two faces at an edge one.
+        if (u < v) // One of the two faces at an edge.
         {
-          look((place[u] + place[v]) * 0.5f, std::array<int, 2>{ u, v });
+          visit((position[u] + position[v]) * 0.5f, std::array<int, 2>{ u, v });
         }
       }
     });
@@ -122,7 +119,7 @@ void GradedSizes::VisitMiddles(std::size_t begin, std::size_t end, const Look& l
 template <typename OfMiddle>
 GradedSizes::Largest GradedSizes::LargestAbout(const OfMiddle& of) const
 {
-  // Threads meet at vertices: in which order they do does not matter.
+  // Threads write to common vertices. The maximum does not depend on their order.
   Largest largest(this->State.Mesh.Rings.size());
   this->Threads.For(largest.size(), VertexGrain,
     [&](std::size_t begin, std::size_t end)
@@ -145,7 +142,7 @@ GradedSizes::Largest GradedSizes::LargestAbout(const OfMiddle& of) const
   return largest;
 }
 
-float GradedSizes::WayToWall(int v, float side, float from, float most) const
+float GradedSizes::DistanceToWall(int v, float side, float from, float most) const
 {
   const Vector p = this->State.Mesh.Position[v];
   const Vector normal = this->State.Normal[v].Axis();
@@ -153,14 +150,14 @@ float GradedSizes::WayToWall(int v, float side, float from, float most) const
   float before = this->TheField.ValueAt(p + normal * (side * from));
   if ((before > 0) != (side < 0))
   {
-    return from; // It is thinner than that, or its normal says nothing.
+    return from; // thinner than `from`, or the normal is meaningless
   }
-  for (float way = from + step; way < most + step; way += step)
+  for (float distance = from + step; distance < most + step; distance += step)
   {
-    const float value = this->TheField.ValueAt(p + normal * (side * way));
+    const float value = this->TheField.ValueAt(p + normal * (side * distance));
     if ((value > 0) != (before > 0))
     {
-      return std::min(way - step * value / (value - before), most);
+      return std::min(distance - step * value / (value - before), most);
     }
     before = value;
   }
@@ -172,8 +169,8 @@ float GradedSizes::MostBetweenWalls(int v, float size) const
   for (const float side : { -1.f, 1.f })
   {
     const float most = WallInDelta * size;
-    const float way = this->WayToWall(v, side, this->Least, most);
-    size = way < most ? std::max(way / WallInDelta, this->Least) : size;
+    const float distance = this->DistanceToWall(v, side, this->Least, most);
+    size = distance < most ? std::max(distance / WallInDelta, this->Least) : size;
   }
   return size;
 }
@@ -182,12 +179,13 @@ float GradedSizes::ThicknessAt(int v) const
 {
   const float most = Grading::MostThickness * this->Least;
   const float from = WallStep * this->Least;
-  return std::min(this->WayToWall(v, -1.f, from, most), this->WayToWall(v, 1.f, from, most));
+  return std::min(
+    this->DistanceToWall(v, -1.f, from, most), this->DistanceToWall(v, 1.f, from, most));
 }
 
-float GradedSizes::WantedSize(int v, float distance, float growth) const
+float GradedSizes::RequestedSize(int v, float distance, float growth) const
 {
-  const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+  const float aimed = AimedShare * static_cast<float>(this->Requested.Tolerance);
   const float change = distance > 0.f ? std::sqrt(aimed / distance) : growth;
   const float size = std::clamp(
     this->State.Sizing.At(v) * std::clamp(change, LeastChange, growth), this->Least, this->Most);
@@ -201,9 +199,9 @@ float GradedSizes::RefinedSize(int v, float offset, float sag) const
   {
     return this->Least;
   }
-  if (this->Wanted.HasTolerance())
+  if (this->Requested.HasTolerance())
   {
-    const float aimed = AimedShare * static_cast<float>(this->Wanted.Tolerance);
+    const float aimed = AimedShare * static_cast<float>(this->Requested.Tolerance);
     size *= sag > aimed ? std::sqrt(aimed / sag) : 1.f;
   }
   return size > this->Least ? this->MostBetweenWalls(v, size) : this->Least;
@@ -215,7 +213,7 @@ std::vector<int> GradedSizes::Refine()
   LargeVector<float> offsets(s.Mesh.Rings.size(), 0.f);
   ForAlive(s.Mesh, this->Threads,
     [&](int v) { offsets[v] = this->SignedDistanceAt(s.Mesh.Position[v], s.Normal[v].Axis()); });
-  // How far the middles would be if their corners were moved onto the isopotential.
+  // Distance of the midpoints if their corners were on the isosurface.
   const auto sag = [&offsets](float distance, const auto& corners)
   {
     float moved = 0.f;
@@ -226,17 +224,17 @@ std::vector<int> GradedSizes::Refine()
     return std::abs(distance - moved / static_cast<float>(corners.size()));
   };
   const Largest sags =
-    this->Wanted.HasTolerance() ? this->LargestAbout(sag) : Largest(offsets.size());
+    this->Requested.HasTolerance() ? this->LargestAbout(sag) : Largest(offsets.size());
   return this->Change([&](int v) { return this->RefinedSize(v, offsets[v], sags[v]); });
 }
 
-std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& places)
+std::vector<int> GradedSizes::ShrinkNear(const std::vector<Vector>& positions)
 {
   const SurfaceState& s = this->State;
   LargeVector<std::uint8_t> isNear(s.Mesh.Rings.size(), 0);
-  for (const Vector& place : places)
+  for (const Vector& position : positions)
   {
-    s.Grid.Visit(place, NearLostInDelta * this->Least, [&](int v) { isNear[v] = 1; });
+    s.Grid.Visit(position, NearMissedInDelta * this->Least, [&](int v) { isNear[v] = 1; });
   }
   return this->Change([&](int v) { return isNear[v] ? this->Least : s.Sizing.At(v); });
 }
@@ -245,16 +243,16 @@ std::vector<int> GradedSizes::Adjust(float growth)
 {
   const Largest distances =
     this->LargestAbout([](float distance, const auto&) { return std::abs(distance); });
-  return this->Change([&](int v) { return this->WantedSize(v, distances[v], growth); });
+  return this->Change([&](int v) { return this->RequestedSize(v, distances[v], growth); });
 }
 
-std::vector<int> GradedSizes::Change(const std::function<float(int v)>& wanted)
+std::vector<int> GradedSizes::Change(const std::function<float(int v)>& requested)
 {
   SurfaceState& s = this->State;
   LargeVector<float> sizes(s.Mesh.Rings.size(), this->Least);
-  ForAlive(s.Mesh, this->Threads, [&](int v) { sizes[v] = wanted(v); });
+  ForAlive(s.Mesh, this->Threads, [&](int v) { sizes[v] = requested(v); });
   sizes = LimitedSizes(sizes, s.Mesh.Position, s.Grid, this->Least,
-    static_cast<float>(this->Wanted.Gradation), this->Threads);
+    static_cast<float>(this->Requested.Gradation), this->Threads);
   std::vector<int> changed;
   for (int v = 0; v < s.Mesh.Size(); ++v)
   {
@@ -280,8 +278,9 @@ Fit GradedSizes::Measure() const
     std::size_t All = 0;
   };
   const SurfaceState& s = this->State;
-  const float tolerance = static_cast<float>(this->Wanted.Tolerance);
-  const Sum all = JoinVertices(s.Mesh, this->Threads, Sum(),
+  const float tolerance = static_cast<float>(this->Requested.Tolerance);
+  const Sum all = JoinVertices(
+    s.Mesh, this->Threads, Sum(),
     [&](int v, Sum& sum)
     {
       this->VisitMiddles(v, v + 1,
@@ -294,8 +293,9 @@ Fit GradedSizes::Measure() const
           ++sum.All;
         });
     },
-    [](const Sum& a, const Sum& b)
-    { return Sum{ std::max(a.Largest, b.Largest), a.Within + b.Within, a.All + b.All }; });
+    [](const Sum& a, const Sum& b) {
+      return Sum{ std::max(a.Largest, b.Largest), a.Within + b.Within, a.All + b.All };
+    });
   Fit fit;
   fit.LargestDistance = all.Largest;
   fit.WithinTolerance =

@@ -16,83 +16,82 @@
 namespace volumic
 {
 /**
- * The delta that each vertex of a surface should have, so that its faces keep a tolerance, or thin
- * parts are held: found from how far they are from the isopotential as they are. The distance of a
- * face's middle grows with the square of its edges. Lengths: workspace.
+ * Sizing: the delta of each vertex for which faces keep a tolerance, or thin parts are resolved. It
+ * follows from the measured distance of faces to the isosurface, which grows with the square of the
+ * edge length. Lengths are in the computational space.
  *
- * The peers take the curvature alone (CGAL's Adaptive_sizing_field, MMG's hausd); what is measured
- * holds where the curvature is that of noise, too.
+ * CGAL's Adaptive_sizing_field and MMG's hausd use the curvature instead, which fails on noise.
  */
 class GradedSizes
 {
 public:
   GradedSizes(SurfaceState& state, const Field& field, const Grading& grading, Executor& executor);
 
-  /** All sizes become this one, or the nearest that is allowed; the mesh must be laid out. */
+  /** Set all sizes to delta, or the nearest allowed value. The mesh must be laid out. */
   void Begin(float delta);
-  /** From here on sizes may become as large as is allowed; they keep the gradation. */
+  /** Allow the largest sizes from now on, within the gradation. */
   void Widen();
 
   /**
-   * Of a surface that comes from a coarser level: those that its faces, moved onto the isopotential
-   * of this one, would need. @return whose has changed
+   * Compute the sizes that faces need after they have moved from the coarser level onto the
+   * isosurface of this one. @return vertices with changed sizes
    */
   std::vector<int> Refine();
-  /** The least about these places, as far as what would be enclosed there reaches. */
-  std::vector<int> ShrinkNear(const std::vector<Vector>& places);
+  /** Set the smallest size near these positions, where recovery surfaces will lie. */
+  std::vector<int> ShrinkNear(const std::vector<Vector>& positions);
 
   /**
-   * Changes the sizes towards what keeps the tolerance, each by a factor of at most `growth`, and
-   * at least 1 / sqrt 3; none beyond what walls and the gradation allow. @return whose has changed
+   * Change sizes towards the tolerance, by factors in [1 / sqrt 3, growth], within the limits of
+   * walls and gradation. @return vertices with changed sizes
    */
   std::vector<int> Adjust(float growth);
 
-  /** How far faces are from the isopotential, at their centroids and the middles of their edges. */
+  /** Measure the distances of face centroids and edge midpoints to the isosurface. */
   Fit Measure() const;
   /**
-   * The lesser of what the object measures along the normal of a vertex at rest, inward, and the
-   * air, outward; no more than Grading::MostThickness of the least delta are looked through.
+   * Return the thickness at a converged vertex along its normal: of the object inward or of the gap
+   * outward, whichever is less, clamped to Grading::MostThickness.
    */
   float ThicknessAt(int v) const;
 
 private:
-  /** Of each vertex, written by many threads. */
+  /** A value per vertex, written in parallel. */
   using Largest = LargeVector<std::atomic<float>>;
 
   /**
-   * From a point of the surface with this normal, at most Furthest(); negative on the object's side
-   * of the isopotential.
+   * Return the distance to the isosurface along the normal, at most Furthest(); negative inside the
+   * object.
    */
   float SignedDistanceAt(const Vector& position, const Vector& normal) const;
   float Furthest() const;
   /**
-   * Calls look(place, corners) for the centroid of each face and the middle of each edge; those of
-   * all ranges are all.
+   * Call visit(position, corners) for the centroid of each face and the midpoint of each edge of a
+   * range of vertices.
    */
-  template <typename Look>
-  void VisitMiddles(std::size_t begin, std::size_t end, const Look& look) const;
-  /** For each vertex the largest value of `of` at the middles about it. */
+  template <typename Visit>
+  void VisitMiddles(std::size_t begin, std::size_t end, const Visit& visit) const;
+  /** Return for each vertex the largest value of `of` at the midpoints around it. */
   template <typename OfMiddle>
   Largest LargestAbout(const OfMiddle& of) const;
   /**
-   * How far the next side of the object (side -1), or of the air (1), is along the normal: at least
-   * `from`, at most `most`.
+   * Return the distance to the opposite wall of the object (side -1) or the gap (side 1) along the
+   * normal, in [from, most].
    */
-  float WayToWall(int v, float side, float from, float most) const;
-  /** What the thickness of the object, or of the air in it, allows. */
+  float DistanceToWall(int v, float side, float from, float most) const;
+  /** Return the largest size that the thickness of object and gap allows. */
   float MostBetweenWalls(int v, float size) const;
-  /** @param distance of what is furthest from the isopotential about it */
-  float WantedSize(int v, float distance, float growth) const;
-  /** @param offset its SignedDistanceAt @param sag the distance, once the offsets are gone */
+  /** @param distance largest distance to the isosurface around the vertex */
+  float RequestedSize(int v, float distance, float growth) const;
+  /** @param offset SignedDistanceAt() @param sag distance without the offsets */
   float RefinedSize(int v, float offset, float sag) const;
-  /** Gives all vertices what `wanted` tells, as far as the gradation allows. @return see Adjust */
-  std::vector<int> Change(const std::function<float(int v)>& wanted);
+  /** Set requested sizes, limited by the gradation. @return vertices with changed sizes */
+  std::vector<int> Change(const std::function<float(int v)>& requested);
 
   SurfaceState& State;
   const Field& TheField;
-  const Grading Wanted;
+  const Grading Requested;
   Executor& Threads;
-  const float Near; ///< Distances up to this are told from value and slope.
+  const float Near; ///< Up to this, distances are estimated from value and slope.
   const float Least;
   const float Most;
 };

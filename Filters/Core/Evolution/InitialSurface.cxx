@@ -3,7 +3,7 @@
 #include "Core/Evolution/InitialSurface.h"
 
 #include "Core/Common/Lattice.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelBox.h"
 #include "Core/Mesh/Division.h"
 
@@ -24,33 +24,33 @@ IndexedSurface Icosahedron(const Point& centre, double radius)
   const double s = scale;
   const double l = scale * golden;
   IndexedSurface surface;
-  for (const Point& p : { Point{ -s, l, 0 }, Point{ s, l, 0 }, Point{ -s, -l, 0 },
-         Point{ s, -l, 0 }, Point{ 0, -s, l }, Point{ 0, s, l }, Point{ 0, -s, -l },
-         Point{ 0, s, -l }, Point{ l, 0, -s }, Point{ l, 0, s }, Point{ -l, 0, -s },
-         Point{ -l, 0, s } })
+  for (const Point& p :
+    { Point{ -s, l, 0 }, Point{ s, l, 0 }, Point{ -s, -l, 0 }, Point{ s, -l, 0 }, Point{ 0, -s, l },
+      Point{ 0, s, l }, Point{ 0, -s, -l }, Point{ 0, s, -l }, Point{ l, 0, -s }, Point{ l, 0, s },
+      Point{ -l, 0, -s }, Point{ -l, 0, s } })
   {
     surface.Points.push_back({ p[0] + centre[0], p[1] + centre[1], p[2] + centre[2] });
   }
   surface.Triangles = { { 0, 11, 5 }, { 0, 5, 1 }, { 0, 1, 7 }, { 0, 7, 10 }, { 0, 10, 11 },
-    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 },
-    { 3, 4, 2 }, { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 },
-    { 6, 2, 10 }, { 8, 6, 7 }, { 9, 8, 1 } };
+    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 }, { 3, 4, 2 },
+    { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 }, { 6, 2, 10 }, { 8, 6, 7 },
+    { 9, 8, 1 } };
   return surface;
 }
 
 namespace
 {
-/** Of one with corners on the unit sphere: 1 / sin(2 pi / 5). */
+/** Edge length of an icosahedron in the unit sphere: 1 / sin(2 pi / 5). */
 constexpr double EdgeOfIcosahedron = 1.0515;
-/** 16 would give 430 million vertices. */
+/** 16 divisions would create 430 million vertices. */
 constexpr int MaximumNumberOfDivisions = 16;
 /**
- * A surface so many times as wide as the image must be in another unit; a ball about a flat image
- * is not yet.
+ * A surface that is wider than the image by this factor must have another unit. A ball around a
+ * flat image is not.
  */
 constexpr double MaximumWidth = 5.;
 
-/** On the unit sphere about the origin. */
+/** Return an icosahedron in the unit sphere. */
 SurfaceMesh DividedSphere(double meanEdge)
 {
   SurfaceMesh mesh;
@@ -84,26 +84,25 @@ IndexedSurface DividedIcosahedron(const Point& centre, double radius, double mea
 
 namespace
 {
-/** Edges of the enclosing surface along its sides, in delta; across them they are sqrt 2 as long. */
+/** Edges of the rounded box along its sides, in delta. Diagonals are sqrt 2 times as long. */
 constexpr double EnclosingEdge = 1.4;
-/** Radius of its rounding for such an edge: the chord of 45 degrees, 1 / (2 sin(pi / 8)). */
+/** Radius of its rounding per edge length: an edge is the chord of 45 degrees, 1 / (2 sin(pi / 8)).
+ */
 constexpr double RoundingOfEdge = 1.3065629648763766;
-/** So many vertices take more memory than there is; images of 2000^3 voxels need 12 million. */
+/** Largest number of vertices; images of 2000^3 voxels need 12 million. */
 constexpr double MostVertices = 3e7;
 
-/** A box with edges and corners cut off, as a lattice of quadrangles on its surface. */
+/** Rounded box, as a lattice of quadrangles on its surface. */
 class RoundedBox
 {
 public:
-  /** About a box of half the widths `half`. */
+  /** @param half half widths of the enclosed box */
   RoundedBox(const Point& centre, const Point& half, double edge)
-    : Centre(centre)
-    , Edge(edge)
-    , Radius(RoundingOfEdge * edge)
+    : Centre(centre), Edge(edge), Radius(RoundingOfEdge * edge)
   {
     for (int k = 0; k < 3; ++k)
     {
-      // The ball that rounds its corner reaches that of the box.
+      // The rounded corner must enclose the corner of the box.
       const double core = std::max(half[k] - this->Radius / std::sqrt(3.), 0.);
       this->Last[k] = static_cast<int>(std::ceil(2. * core / edge)) + 2;
     }
@@ -120,19 +119,19 @@ public:
   }
 
 private:
-  using Place = std::array<int, 3>; ///< On the lattice, 0 to Last.
+  using LatticeIndex = std::array<int, 3>; ///< 0 to Last
 
   void AddSide(int axis, int at)
   {
     const int i = (axis + 1) % 3;
     const int j = (axis + 2) % 3;
-    Place p;
+    LatticeIndex p;
     p[axis] = at;
     for (p[i] = 0; p[i] < this->Last[i]; ++p[i])
     {
       for (p[j] = 0; p[j] < this->Last[j]; ++p[j])
       {
-        Place corner[4] = { p, p, p, p }; // In turn, outward where at > 0.
+        LatticeIndex corner[4] = { p, p, p, p }; // counter-clockwise seen from outside if at > 0
         ++corner[1][i];
         ++corner[2][i];
         ++corner[2][j];
@@ -142,7 +141,7 @@ private:
         {
           index[k] = this->IndexOf(corner[k]);
         }
-        // At a corner of the box the diagonal ends there, which leaves no vertex of valence 3.
+        // The diagonal ends at the corner of the box, so no vertex has valence 3.
         const int first = (p[i] == 0) == (p[j] == 0) ? 0 : 1;
         this->AddTriangle(index[first], index[first + 1], index[first + 2], at > 0);
         this->AddTriangle(index[first], index[first + 2], index[(first + 3) % 4], at > 0);
@@ -155,27 +154,27 @@ private:
     this->Result.Triangles.push_back({ a, isOutward ? b : c, isOutward ? c : b });
   }
 
-  int IndexOf(const Place& place)
+  int IndexOf(const LatticeIndex& index)
   {
     const auto found = this->Index.emplace(
-      LatticeKey(place[0], place[1], place[2]), static_cast<int>(this->Result.Points.size()));
+      LatticeKey(index[0], index[1], index[2]), static_cast<int>(this->Result.Points.size()));
     if (found.second)
     {
-      this->Result.Points.push_back(this->PointAt(place));
+      this->Result.Points.push_back(this->PointAt(index));
     }
     return found.first->second;
   }
 
-  Point PointAt(const Place& place) const
+  Point PointAt(const LatticeIndex& index) const
   {
-    // The core's nearest point, and the direction from there.
+    // Nearest point of the core, and the direction from there.
     Point p = this->Centre;
     Point out;
     for (int k = 0; k < 3; ++k)
     {
-      const int onCore = std::clamp(place[k], 1, this->Last[k] - 1);
+      const int onCore = std::clamp(index[k], 1, this->Last[k] - 1);
       p[k] += (onCore - 0.5 * this->Last[k]) * this->Edge;
-      out[k] = place[k] - onCore;
+      out[k] = index[k] - onCore;
     }
     const double scale = this->Radius / std::hypot(out[0], out[1], out[2]);
     for (int k = 0; k < 3; ++k)
@@ -188,9 +187,9 @@ private:
   Point Centre;
   double Edge;
   double Radius;
-  Place Last;
+  LatticeIndex Last;
   IndexedSurface Result;
-  std::unordered_map<std::uint64_t, int> Index; ///< Of the points, by place.
+  std::unordered_map<std::uint64_t, int> Index; ///< of points, by lattice index
 };
 }
 
@@ -200,7 +199,7 @@ IndexedSurface EnclosingSurface(const LevelImage& image, double delta)
   Point half;
   for (int k = 0; k < 3; ++k)
   {
-    // Voxels lie at 0 .. (Size - 1) Step; the field falls to the background one Step beyond.
+    // Voxels lie at 0 .. (Size - 1) Step. The field falls to the background one Step beyond.
     centre[k] = 0.5 * (image.Size[k] - 1) * image.Step[k];
     half[k] = centre[k] + image.Step[k];
   }
@@ -215,9 +214,9 @@ void CheckNumberOfVertices(double area, const LevelImage& image, double delta)
   if (!(vertices <= MostVertices))
   {
     const auto [least, most] = std::minmax_element(image.Step.begin(), image.Step.end());
-    Refuse("The surface to start from would have ", std::round(vertices / 1e6),
-      " million vertices, as the image's voxels are ",
-      *most / *least, " times as long as wide. Check the Spacing, resample the image, or set "
+    ThrowInvalidArgument("The surface to start from would have ", std::round(vertices / 1e6),
+      " million vertices, as the image's voxels are ", *most / *least,
+      " times as long as wide. Check the Spacing, resample the image, or set "
       "Metric to Voxels (0).");
   }
 }
@@ -234,7 +233,7 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   }
   if (widest > MaximumWidth * widestImage)
   {
-    Refuse("The initial surface is too large for the image: it is ", widest,
+    ThrowInvalidArgument("The initial surface is too large for the image: it is ", widest,
       " voxel distances wide, the image ", widestImage,
       ". Are its coordinates in another unit than the image's, for example micrometres instead of "
       "millimetres? Scale it to the image's.");
@@ -243,9 +242,10 @@ void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image)
   {
     if (bounds.High[k] < 0. || bounds.Low[k] > image.Size[k] * image.Step[k])
     {
-      Refuse("The initial surface lies wholly outside the image: along axis ", k, " it runs from ",
-        bounds.Low[k], " to ", bounds.High[k], " voxel distances, the image from 0 to ",
-        image.Size[k] * image.Step[k], ". Check that both use the same space.");
+      ThrowInvalidArgument("The initial surface lies wholly outside the image: along axis ", k,
+        " it runs from ", bounds.Low[k], " to ", bounds.High[k],
+        " voxel distances, the image from 0 to ", image.Size[k] * image.Step[k],
+        ". Check that both use the same space.");
     }
   }
 }
@@ -258,7 +258,7 @@ float ValueAt(const Field& field, const Point& p)
     Vector(static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])));
 }
 
-/** The points of a grid about the middle of the image that are inside the object. */
+/** Return the points of a centred grid that lie inside the object. */
 std::vector<Point> GridOfSeeds(const Field& field, double spacing)
 {
   const LevelImage& image = field.Image();
@@ -295,8 +295,9 @@ std::vector<float> ValuesAtSeeds(const Field& field, const std::vector<Point>& c
     {
       if (!(p[k] >= 0. && p[k] <= image.Size[k] * image.Step[k]))
       {
-        Refuse("Seed ", i, " lies outside the image: ", p[k], " voxel distances along axis ", k,
-          ", the image has ", image.Size[k] * image.Step[k], ".");
+        ThrowInvalidArgument("Seed ", i, " lies outside the image: ", p[k],
+          " voxel distances along axis ", k, ", the image has ", image.Size[k] * image.Step[k],
+          ".");
       }
     }
     values.push_back(ValueAt(field, p));
@@ -312,8 +313,9 @@ std::vector<Point> ChooseSeeds(
     std::vector<Point> grid = GridOfSeeds(field, spacing);
     if (grid.empty())
     {
-      Refuse("No point of the grid of seeds lies inside the object. Set Seed Positions, a smaller "
-             "Seed Radius, a finer Coarsest Level or another Iso Value.");
+      ThrowInvalidArgument(
+        "No point of the grid of seeds lies inside the object. Set Seed Positions, a smaller "
+        "Seed Radius, a finer Coarsest Level or another Iso Value.");
     }
     return grid;
   }
@@ -321,18 +323,18 @@ std::vector<Point> ChooseSeeds(
   std::vector<Point> chosen;
   for (std::size_t i = 0; i < centres.size(); ++i)
   {
-    const VectorD place(centres[i][0], centres[i][1], centres[i][2]);
+    const VectorD centre(centres[i][0], centres[i][1], centres[i][2]);
     if (values[i] > 0 &&
       std::none_of(chosen.begin(), chosen.end(),
         [&](const Point& q)
-        { return SquaredDistance(VectorD(q[0], q[1], q[2]), place) < spacing * spacing; }))
+        { return SquaredDistance(VectorD(q[0], q[1], q[2]), centre) < spacing * spacing; }))
     {
       chosen.push_back(centres[i]);
     }
   }
   if (chosen.empty())
   {
-    Refuse("No seed lies inside the object.");
+    ThrowInvalidArgument("No seed lies inside the object.");
   }
   return chosen;
 }

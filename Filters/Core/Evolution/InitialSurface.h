@@ -9,30 +9,26 @@
 
 namespace volumic
 {
-/** An icosahedron with corners on the sphere, workspace, outward oriented. */
+/** Return an icosahedron with its corners on a sphere, oriented outward. */
 IndexedSurface Icosahedron(const Point& centre, double radius);
 
-/**
- * An icosahedron divided globally by sqrt 3 on its sphere until its mean edge is below
- * `meanEdge`.
+/** Return an icosahedron, subdivided on its sphere until the mean edge length is below `meanEdge`.
  */
 IndexedSurface DividedIcosahedron(const Point& centre, double radius, double meanEdge);
 
 /**
- * A box with edges and corners cut off that encloses the image and a voxel about it. Whatever the
- * image's proportions, its edges are 1.1 to 2 delta long, legal by eq. (1): collapses and splits
- * have nothing to do before the forces have. It is near the image, and has a short way to go.
- * @throws std::invalid_argument as CheckNumberOfVertices.
+ * Return a rounded box around the image, with a margin of one voxel. Edges are 1.1 to 2 delta long
+ * for any proportions of the image, legal by eq. (1).
+ * @throws std::invalid_argument as CheckNumberOfVertices()
  */
 IndexedSurface EnclosingSurface(const LevelImage& image, double delta);
 
-/** Refuses a surface of an area (workspace) that would have too many vertices for any memory. */
+/** Throw std::invalid_argument if a surface of this area would have too many vertices. */
 void CheckNumberOfVertices(double area, const LevelImage& image, double delta);
 
 /**
- * Refuses a surface (workspace) that lies wholly outside the image, or is so much larger that its
- * coordinates must be in another unit.
- * @throws std::invalid_argument
+ * Throw std::invalid_argument if a surface does not overlap the image, or is so large that its
+ * coordinates must have another unit.
  */
 void CheckOverlapsImage(const IndexedSurface& surface, const LevelImage& image);
 
@@ -41,14 +37,14 @@ constexpr double SmallestSeed = 0.96;
 
 /**
  * Return the value of the field at each centre: positive inside the object.
- * @throws std::invalid_argument if a centre lies outside the image.
+ * @throws std::invalid_argument if a centre lies outside the image
  */
 std::vector<float> ValuesAtSeeds(const Field& field, const std::vector<Point>& centres);
 
 /**
- * The centres that can be used: inside the object and at least `spacing` from those before. With
- * no centres given, points of a grid of that spacing.
- * @throws std::invalid_argument when a centre lies outside the image or none is left.
+ * Return the centres inside the object, at least `spacing` from each other. Without centres, return
+ * points of a grid of this spacing.
+ * @throws std::invalid_argument if a centre lies outside the image or none is left
  */
 std::vector<Point> ChooseSeeds(
   const Field& field, const std::vector<Point>& centres, double spacing);

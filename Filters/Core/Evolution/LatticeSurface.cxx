@@ -21,26 +21,26 @@ namespace volumic
 {
 namespace
 {
-/** Smallest distance of a lattice point that is stored, in pitches: its sign is the side. */
+/** Smallest stored distance of a lattice point, in pitches. Its sign is the side. */
 constexpr double LeastDistance = 1e-6;
-/** Number of points below which a thread does not pay. */
+/** Minimum number of points per thread. */
 constexpr std::size_t PointGrain = 64;
-/** Share of the distances in the whole work, for the progress. */
+/** Fraction of the distances in the progress. */
 constexpr double ShareOfDistances = 0.8;
 
-/** Sides of the lattice points in a layer, x fastest. */
+/** Sides of the lattice points of a layer, x fastest. */
 using Layer = std::vector<unsigned char>;
 constexpr unsigned char Inside = 1;
-constexpr unsigned char Near = 2; ///< It has a neighbour on the other side.
+constexpr unsigned char Near = 2; ///< has a neighbour on the other side
 
-/** Counts windings along the rows of a lattice, layer by layer. */
+/** Winding numbers along the rows of a lattice, layer by layer. */
 class RowFollower
 {
 public:
   RowFollower(const IndexedSurface& surface, const DistanceLattice& lattice, Executor& executor)
   {
     std::copy(lattice.Size().begin(), lattice.Size().end(), this->Rows.End.begin());
-    this->Rows.Origin = lattice.PlaceOf(0, 0, 0);
+    this->Rows.Origin = lattice.PositionOf(0, 0, 0);
     this->Rows.Pitch = lattice.Pitch();
     for (const Triangle& t : surface.Triangles)
     {
@@ -50,7 +50,7 @@ public:
     Sort(executor, this->Crossings);
   }
 
-  /** Finds the inside points of a layer. Call it in order, from the layer 0 on. */
+  /** Find the inside points of a layer. Call it in order, from layer 0 on. */
   void Fill(std::int64_t k, Layer& layer)
   {
     std::fill(layer.begin(), layer.end(), static_cast<unsigned char>(0));
@@ -81,7 +81,7 @@ private:
   std::size_t Next = 0; ///< the first crossing in the next layer
 };
 
-/** Marks the points that have a neighbour on the other side, in a layer and the next one. */
+/** Mark the points with a neighbour on the other side, in a layer and the next one. */
 void MarkNear(Layer& layer, Layer& next, std::size_t width)
 {
   const auto compare = [](unsigned char& a, unsigned char& b)
@@ -90,7 +90,7 @@ void MarkNear(Layer& layer, Layer& next, std::size_t width)
     a |= mark;
     b |= mark;
   };
-  // The outermost points are outside: rows may be compared beyond their ends.
+  // The outermost points are outside, so rows may be compared beyond their ends.
   for (std::size_t n = 0; n < layer.size(); ++n)
   {
     compare(layer[n], next[n]);
@@ -150,7 +150,7 @@ IndexedSurface RemeshOnLattice(const IndexedSurface& given, double pitch, int at
           if ((side & Near) != 0)
           {
             points[n].Distance = static_cast<float>(std::max(
-              std::sqrt(tree.SquaredDistance(lattice.PlaceOf(i, j, k))), LeastDistance * pitch));
+              std::sqrt(tree.SquaredDistance(lattice.PositionOf(i, j, k))), LeastDistance * pitch));
           }
           points[n].Distance *= (side & Inside) != 0 ? -1.f : 1.f;
         }

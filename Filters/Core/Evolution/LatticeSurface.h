@@ -11,19 +11,18 @@
 namespace volumic
 {
 /**
- * Remesh a closed surface on a cubic lattice (DistanceLattice), whatever its triangles look like:
- * slivers, fans of any valence, triangles of any size. Lattice points with a positive winding
- * number are inside.
+ * Remesh a closed, oriented surface on a cubic lattice (DistanceLattice). Its triangles may have
+ * any shape, size and valence. Lattice points with a positive winding number are inside.
  *
- * The result is a closed manifold without intersections. Vertices lie near the surface where it is smooth, and nowhere further from it than the pitch.
- * Parts thinner than the pitch may be lost or torn, and narrower gaps closed. Sharp edges are cut
- * off by up to half of the pitch.
+ * The result is a closed manifold without intersections, at most the pitch away from the surface.
+ * Parts thinner than the pitch may vanish or break, and narrower gaps may close. Sharp edges are
+ * cut off by up to half of the pitch.
  *
- * @param pitch distance of the lattice points, in the unit of the surface's points.
- * @param attempt number of the lattice's direction (ObliqueRotation): what one tears, another may not.
- * @param goOn receives the finished share now and then; if it returns false, the result is empty.
- * @return a surface without triangles if the lattice resolves no part of it.
- * `surface` must be closed and oriented.
+ * @param pitch distance between lattice points
+ * @param attempt index of the lattice's direction (ObliqueRotation); another one may keep thin
+ * parts
+ * @param goOn progress callback; the result is empty if it returns false
+ * @return an empty surface if the lattice resolves no part of the surface
  */
 IndexedSurface RemeshOnLattice(const IndexedSurface& surface, double pitch, int attempt,
   Executor& executor, const std::function<bool(double share)>& goOn);

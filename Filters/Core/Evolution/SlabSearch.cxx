@@ -12,8 +12,8 @@ namespace volumic
 namespace
 {
 /**
- * Rows pass beside the voxels by so much, in voxels along y and z, so that hardly any hits an edge
- * or a corner of a surface on round numbers.
+ * Offset of rows from the voxels along y and z, in voxels. Rows then hardly hit edges or corners of
+ * surfaces with round coordinates.
  */
 constexpr double Aside[2] = { 1.2345e-4, 1.7 * 1.2345e-4 };
 
@@ -72,7 +72,7 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
   {
     if (crossings[i].Row != crossings[i + 1].Row)
     {
-      ++i; // Odd ones don't exist on a closed surface.
+      ++i; // A closed surface has no odd crossings.
       continue;
     }
     const auto x = [&](std::size_t n) { return static_cast<float>(crossings[n].Where.X); };
@@ -85,11 +85,11 @@ void SlabSearch::LeaveSide(const int* vertices, std::size_t count)
 
 void SlabSearch::CloseNear(int v)
 {
-  // Whatever the distances of the voxels.
+  // Independent of the voxel distances.
   const double width = NearUnits * this->TheField.Image().Unit;
   const auto& step = this->TheField.Image().Step;
   const Vector& p = this->State.Mesh.Position[v];
-  const double place[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
+  const double position[3] = { p.X * this->Inverse[0], p.Y * this->Inverse[1],
     p.Z * this->Inverse[2] };
   int low[3];
   int high[3];
@@ -97,19 +97,19 @@ void SlabSearch::CloseNear(int v)
   {
     const double reach = width * this->Inverse[k];
     low[k] = std::max(
-      static_cast<int>(this->Rows.First[k]), static_cast<int>(std::ceil(place[k] - reach)));
+      static_cast<int>(this->Rows.First[k]), static_cast<int>(std::ceil(position[k] - reach)));
     high[k] = std::min(
-      static_cast<int>(this->Rows.End[k]) - 1, static_cast<int>(std::floor(place[k] + reach)));
+      static_cast<int>(this->Rows.End[k]) - 1, static_cast<int>(std::floor(position[k] + reach)));
   }
   for (int k = low[2]; k <= high[2]; ++k)
   {
     for (int j = low[1]; j <= high[1]; ++j)
     {
-      const double y = (j - place[1]) * step[1];
-      const double z = (k - place[2]) * step[2];
+      const double y = (j - position[1]) * step[1];
+      const double z = (k - position[2]) * step[2];
       const auto isFar = [&](int i)
       {
-        const double x = (i - place[0]) * step[0];
+        const double x = (i - position[0]) * step[0];
         return !(x * x + y * y + z * z <= width * width);
       };
       int first = low[0];
@@ -157,16 +157,16 @@ void SlabSearch::AddRuns(std::int64_t row, const std::uint64_t* open,
     const int end = std::min(i + BitsOfWord, this->Size[0]);
     for (std::uint64_t bits = open[w]; bits != 0 && i < end; bits >>= 1, ++i)
     {
-      const bool isLost = (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
-      if (isLost && isOnRun)
+      const bool isMissed = (bits & 1) != 0 && (values[i] > 0) == (this->Kind == PartKind::Object);
+      if (isMissed && isOnRun)
       {
         ++runs.back().Length;
       }
-      else if (isLost)
+      else if (isMissed)
       {
         runs.push_back({ row + i, 1, 0 });
       }
-      isOnRun = isLost;
+      isOnRun = isMissed;
     }
     isOnRun = isOnRun && i == end;
   }

@@ -14,49 +14,48 @@
 
 namespace volumic
 {
-/** A voxel that lies no farther than so many units of the level from a vertex is not lost. */
+/** Voxels within this distance of a vertex are not missed, in units of the level. */
 constexpr double NearUnits = 2.;
 
-/** Voxels of a part that follow each other along x. */
+/** Consecutive voxels of a part along x. */
 struct VoxelRun
 {
-  std::int64_t First; ///< Number of the first one, see VoxelNumbers.
+  std::int64_t First; ///< linear index of the first voxel, see VoxelNumbers
   int Length;
   int Part;
 };
 
-/** Which kind of parts a surface may have lost. */
+/** Kind of missed parts. */
 enum class PartKind
 {
-  Object, ///< Object outside the surface.
-  Cavity  ///< Background inside the surface.
+  Object, ///< object outside the surface
+  Cavity  ///< background inside the surface
 };
 
 /**
- * The search of one slab, a range of layers of an image, for the voxels that a surface has lost:
- * see LostVoxels.
+ * Search of one slab, a range of slices of an image, for missed voxels (see MissedVoxels).
  */
 class SlabSearch
 {
 public:
-  /** Searches the layers [begin, end). What is given must outlive it. */
+  /** Search the slices [begin, end). The arguments must outlive the object. */
   SlabSearch(const SurfaceState& state, const Field& field, PartKind kind, int begin, int end);
 
   /**
-   * Leaves the voxels open that lie outside the surface (for cavities: inside). `vertices`: all of
-   * whose faces one may cross a layer.
+   * Select the voxels outside the surface (for cavities: inside).
+   * @param vertices all vertices of faces that cross the slab
    */
   void LeaveSide(const int* vertices, std::size_t count);
-  /** Closes the voxels that are no farther than NearUnits from a vertex. */
+  /** Deselect the voxels within NearUnits of a vertex. */
   void CloseNear(int v);
-  /** The voxels that are open and of the kind that is looked for, by number. */
+  /** Return the selected voxels of the object (for cavities: background), in order. */
   std::vector<VoxelRun> FindRuns() const;
 
 private:
-  /** Those of a row: number of its first voxel, bits and values. */
+  /** Append the runs of a row, given its first voxel, bits and values. */
   void AddRuns(std::int64_t row, const std::uint64_t* open, const std::vector<float>& values,
     std::vector<VoxelRun>& runs) const;
-  /** Opens or closes voxels of a row of the slab, the last one as well. */
+  /** Select or deselect the voxels [first, last] of a row. */
   void Set(std::int64_t row, int first, int last, bool isOpen);
 
   const SurfaceState& State;
@@ -64,9 +63,9 @@ private:
   PartKind Kind;
   std::array<int, 3> Size;
   RowGrid Rows;
-  int Words; ///< How many words of bits a row has.
+  int Words; ///< words of bits per row
   double Inverse[3];
-  std::vector<std::uint64_t> Open; ///< A bit for each voxel that may be lost, row by row.
+  std::vector<std::uint64_t> Open; ///< selection: a bit per voxel, row by row
 };
 }
 

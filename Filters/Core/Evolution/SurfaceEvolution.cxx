@@ -3,7 +3,7 @@
 #include "Core/Evolution/SurfaceEvolution.h"
 
 #include "Core/Common/FreeMemory.h"
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/Evolution.h"
 #include "Core/Surface/NewFaces.h"
 
@@ -16,13 +16,13 @@ namespace volumic
 {
 namespace
 {
-/** Iterations after which the estimate of a level's progress is 1 - 1/e of its way. */
+/** Number of iterations at which the estimated progress of a level reaches 1 - 1/e. */
 constexpr double TypicalIterations = 80.;
-/** Share of a level's progress that is left to what comes before and after its iterations. */
+/** Progress of a level before and after its iterations. */
 constexpr double ShareBefore = 0.1;
 constexpr double ShareAfter = 0.2;
 
-/** Of a level, in [0, 1]. */
+/** Return the progress of a level, in [0, 1]. */
 double FractionOf(Monitor::Activity doing, double share, int iterations)
 {
   switch (doing)
@@ -46,7 +46,7 @@ void CheckRange(const char* name, double value, double low, double high)
 {
   if (!(value >= low && value <= high))
   {
-    Refuse(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
+    ThrowInvalidArgument(name, " is ", value, ", it must lie in [", low, ", ", high, "].");
   }
 }
 }
@@ -104,19 +104,20 @@ bool Evolution::GoOn(Monitor::Activity doing, double share)
   return !this->Stopped;
 }
 
-ProgressQuestion Evolution::QuestionOf(Monitor::Activity doing, double from, double to)
+ProgressCallback Evolution::ProgressCallbackOf(Monitor::Activity doing, double from, double to)
 {
   return [this, doing, from, to](double share)
   { return this->GoOn(doing, from + (to - from) * std::clamp(share, 0., 1.)); };
 }
 
-void Evolution::LookAt()
+void Evolution::Observe()
 {
-  if (this->Task.Look)
+  if (this->Task.Observe)
   {
-    const auto take = [this]
-    { return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult(); };
-    this->Task.Look(this->History.Iterations(), take);
+    const auto take = [this] {
+      return CountIntersecting(this->State, this->Threads) == 0 ? this->Result() : SurfaceResult();
+    };
+    this->Task.Observe(this->History.Iterations(), take);
   }
 }
 
@@ -132,29 +133,29 @@ void Evolution::MakeField()
 }
 
 LevelOutcome EvolveOnLevel(
-  const LevelTask& task, SurfaceAtRest& rest, Executor& executor, Monitor& monitor)
+  const LevelTask& task, ConvergedSurface& converged, Executor& executor, Monitor& monitor)
 {
-  Evolution e(task, rest.History, executor, monitor);
+  Evolution e(task, converged.History, executor, monitor);
   LevelOutcome outcome;
-  outcome.HasCome = ComeToLevel(e, rest);
-  if (!outcome.HasCome)
+  outcome.HasReachedLevel = ReachLevel(e, converged);
+  if (!outcome.HasReachedLevel)
   {
     return outcome;
   }
   GiveBackFreeMemory();
-  e.LookAt();
+  e.Observe();
   outcome.Reason = RunLevel(e);
-  e.State.ForgetMotion(); // So that there is room for the result.
+  e.State.ReleaseMotion(); // Frees memory for the result.
   GiveBackFreeMemory();
   outcome.Surface = e.Result();
   outcome.Reason = e.Stopped ? StopReason::Cancelled : outcome.Reason;
   outcome.Iterations = e.History.Iterations();
-  outcome.Lost = e.Lost;
+  outcome.Missed = e.Missed;
   outcome.Verified = e.Verified;
-  rest.Mesh = std::move(e.State.Mesh);
-  rest.Level = task.Level;
-  rest.Delta = e.State.Sizing.OfLevel();
-  rest.Unchecked = e.Unchecked;
+  converged.Mesh = std::move(e.State.Mesh);
+  converged.Level = task.Level;
+  converged.Delta = e.State.Sizing.OfLevel();
+  converged.Unchecked = e.Unchecked;
   return outcome;
 }
 }

@@ -7,7 +7,7 @@
 #include "Core/Common/Grading.h"
 #include "Core/Common/IndexedSurface.h"
 #include "Core/Common/Monitor.h"
-#include "Core/Evolution/SurfaceAtRest.h"
+#include "Core/Evolution/ConvergedSurface.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Evolution/SurfaceResult.h"
 #include "Core/Image/LevelImage.h"
@@ -21,119 +21,116 @@ namespace volumic
 enum class StopReason
 {
   Converged,
-  LimitCycle, ///< It goes to and fro without getting anywhere, see CycleCriterion.
+  LimitCycle, ///< see CycleCriterion
   IterationLimit,
   Cancelled,
-  Vanished ///< No component is left.
+  Vanished ///< no component is left
 };
 
 /** Return the text in the output's field data: "converged", "limit cycle", "vanished", ... */
 const char* Describe(StopReason reason);
 
-/** What a surface begins with on the coarsest level; lengths are those of the workspace. */
+/** Initial surface at the coarsest level. Lengths are in the computational space. */
 struct SurfaceStart
 {
   enum class Kind
   {
-    Enclosing, ///< A rounded box about the image, see EnclosingSurface.
+    Enclosing, ///< rounded box around the image, see EnclosingSurface()
     /**
-     * What encloses the parts of the object of at least MinimumPartSize voxels, as where all of it
-     * has been lost (FindLostParts): near to them, where the way from a box takes hundreds of
-     * iterations if the level is not a coarse one. Where there is none, Enclosing.
+     * Recovery surfaces around all parts of at least MinimumPartSize voxels (FindMissedParts). They
+     * save the hundreds of iterations that a box needs at a fine level. Without parts: Enclosing.
      */
     EnclosingParts,
-    /** Icosahedra of SeedRadius about Seeds or, where these are none, about ChooseSeeds' own. */
+    /** Icosahedra of SeedRadius around Seeds, or around the seeds of ChooseSeeds(). */
     Seeds,
     /**
-     * Surface, which must be closed, remeshed to the constraints of delta: no edge is longer than
-     * 2.5 delta, none but a few in places narrower than that shorter than delta, and nothing
-     * intersects, which is tested.
+     * Surface, which must be closed, remeshed: no edge is longer than 2.5 delta, few edges in thin
+     * regions are shorter than delta, and there are no intersections.
      */
     Surface,
-    IsoSurface ///< The same for all of the object, however small its parts are.
+    IsoSurface ///< recovery surfaces around all parts of any size
   };
   Kind From = Kind::Enclosing;
   std::vector<Point> Seeds;
   IndexedSurface Surface;
 };
 
-/** A level that a surface is to come to rest on. */
+/** Options of the evolution on a level. */
 struct LevelTask
 {
   SurfaceOptions Options;
   LevelImage Image;
   int Level = 0;
-  const SurfaceStart* Start = nullptr; ///< Null: the surface at rest of a coarser level is divided.
+  const SurfaceStart* Start = nullptr; ///< null: divide the surface of the coarser level
   /**
-   * Before the final regularisation delta is changed by small steps, as far as eq. (7) allows, until
-   * the mean of the edges is this long; 0: as it comes. Within 3 % where eq. (7) does not end it.
+   * Requested mean edge length, met within 3 % by small changes of delta within eq. (7), before the
+   * final regularisation; 0: none.
    */
   double MeanEdgeLength = 0.;
   /**
-   * Of the last level: it is divided only where what is seen there asks for it, and with a tolerance
-   * edges become longer where it rests, as far as it stays within that of the isopotential.
+   * Graded edge lengths of the last level: subdivide only where required, and with a tolerance,
+   * lengthen edges of the converged surface within the tolerance.
    */
   volumic::Grading Grading;
   /**
-   * Called when the surface has come to the level, and after each sweep. take() returns the surface,
-   * or an empty one if a test of all faces finds an intersection.
+   * Called when the surface has reached the level, and after each sweep. take() returns the
+   * surface, or an empty one if a test of all faces finds an intersection.
    */
-  std::function<void(int iteration, const std::function<SurfaceResult()>& take)> Look;
+  std::function<void(int iteration, const std::function<SurfaceResult()>& take)> Observe;
 };
 
-/** Lost parts that were found when a surface came to a level, and how many of them it encloses. */
-struct LostParts
+/** Parts missed by the coarser level, and recovered ones. */
+struct MissedParts
 {
-  int Found = 0; ///< Parts of the object outside the surface; told also where recovery is off.
+  int Found = 0; ///< parts of the object outside the surface, also without recovery
   int Enclosed = 0;
-  int FoundCavities = 0; ///< Parts of the background inside it; looked for only on request.
+  int FoundCavities = 0; ///< parts of the background inside, on request only
   int EnclosedCavities = 0;
-  int Missing = 0; ///< Of all found, those that the surface misses at the end.
-  double MissingBoundary = 0.; ///< And the share of the whole boundary; see LostBoundary.
+  int Missing = 0;             ///< parts that the final surface misses
+  double MissingBoundary = 0.; ///< fraction of the boundary, see MissedBoundary
 };
 
 /**
- * What the tests of all faces have found at the end: vertices whose faces intersected others,
- * 0 but for an error of Volumic, and how many are left after the surface has got another mesh.
+ * Result of the final intersection test: number of vertices with intersecting faces (a defect of
+ * Volumic if not 0), and number left after remeshing.
  */
 struct Verdict
 {
   int Found = 0;
   int Left = 0;
-  /** What is told where something was found. */
+  /** Return the warning, if any. */
   std::string Describe(int level) const;
 };
 
-/** How a surface has come through a level. */
+/** Result of EvolveOnLevel(). */
 struct LevelOutcome
 {
-  bool HasCome = false; ///< Else it was stopped before, and is as it was.
+  bool HasReachedLevel = false; ///< false: cancelled before any change
   StopReason Reason = StopReason::Cancelled;
   SurfaceResult Surface;
   int Iterations = 0;
-  LostParts Lost;
+  MissedParts Missed;
   Verdict Verified;
 };
 
-/** @throws std::invalid_argument for options outside their range. */
+/** Throw std::invalid_argument if an option is out of range. */
 void CheckOptions(const SurfaceOptions& options);
 
 /**
- * The deformable surface: a closed triangulated mesh that follows an isopotential from coarse to
- * fine (the paper's sections 3 to 5, and Documentation/differences.md). This takes it to a level, by
- * a start or by as many sqrt 3 divisions as bring delta nearest to the level's, and evolves it there
- * until it rests, cycles, has had its iterations, nothing is left or the monitor has said stop, after
- * which this is not asked again.
+ * Evolve a deformable surface on a level (sections 3 to 5 of the paper,
+ * Documentation/differences.md). The surface starts from Start, or from the coarser level by the
+ * sqrt 3 divisions that bring delta nearest to that of the level. It evolves until one of the stop
+ * reasons applies.
  *
- * Whenever it is taken, and at the end, it is closed, oriented, manifold and verified to be free of
- * self-intersections; at the end no component is inside out. Bit-identical for any executor.
+ * Each result is closed, oriented, manifold and tested to be free of self-intersections. No
+ * component of the final surface is inside out. Results are bit-identical for any executor.
  *
- * @param rest what the level before has left; afterwards what this one leaves, which must have come
- *             to rest to be divided
- * @throws std::invalid_argument for a start that cannot be used, or too thin for such triangles
+ * @param converged in: the converged surface of the coarser level; out: that of this level, if it
+ * has converged
+ * @throws std::invalid_argument if Start is invalid, or thinner than the triangles
  */
 LevelOutcome EvolveOnLevel(
-  const LevelTask& task, SurfaceAtRest& rest, Executor& executor, Monitor& monitor);
+  const LevelTask& task, ConvergedSurface& converged, Executor& executor, Monitor& monitor);
 }
 
 #endif

@@ -15,9 +15,9 @@ namespace volumic
 {
 namespace
 {
-/** A displacement, in delta, that uses little of a vertex's slack. */
+/** A displacement, in delta, that is small relative to the clearance of a vertex. */
 constexpr float SlowDisplacement = 0.08f;
-/** Collapses after which a component may have become a small one. */
+/** Number of collapses after which a component may be small. */
 constexpr int SuspiciousCollapses = 40;
 
 const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
@@ -34,33 +34,31 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 }
 }
 
-SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
   bool topologyChanges, Executor& threads)
-  : State(state)
-  , Visit(visit)
-  , Threads(threads)
-  , Edits(state, evidence, topologyChanges, &visit.Share)
+  : State(state), Pass(pass), Threads(threads), Edits(state, evidence, topologyChanges, &pass.Context)
 {
   SurfaceState& s = this->State;
   this->CollectActive();
-  // What others have edited or moved since; and of what has contacts, which: no visit remembers.
+  // Vertices that other passes have edited or moved, and vertices with contacts: passes keep no
+  // pairs.
   std::vector<int> crowded;
   for (const int v : this->Active)
   {
-    if (this->IsSuspect(v))
+    if (this->IsDirty(v))
     {
-      this->Suspects.push_back(v);
-      s.Drift[v] = 0;
+      this->DirtyVertices.push_back(v);
+      s.MotionSinceTest[v] = 0;
     }
     else if (s.NearOthers[v])
     {
       crowded.push_back(v);
     }
   }
-  this->Near.Examine(s, this->Suspects, threads);
+  this->Near.Test(s, this->DirtyVertices, threads);
   this->Near.AddPairs(s, crowded);
-  this->Watch.LabelSmall(s, visit.First, visit.End(), visit.Written, visit.Large);
-  this->Labelled = visit.Share.Counts;
+  this->Watch.LabelSmall(s, pass.First, pass.End(), pass.Written, pass.Large);
+  this->Labelled = pass.Context.Counts;
 }
 
 SurfaceIteration::~SurfaceIteration()
@@ -73,13 +71,13 @@ SurfaceIteration::~SurfaceIteration()
 
 void SurfaceIteration::CollectActive()
 {
-  // Where an edge has grown beyond measure its ends wait until it is split.
+  // Ends of an edge that is too long do not move until it is split.
   const SurfaceState& s = this->State;
   this->Active.clear();
-  for (int v = this->Visit.First; v < this->Visit.End(); ++v)
+  for (int v = this->Pass.First; v < this->Pass.End(); ++v)
   {
     if (s.Active[v] != 0 && s.Mesh.IsAlive(v) && !(s.RemeshFlags[v] & HasHugeEdge) &&
-      this->Visit.Moving.Contains(s.Mesh.Position[v]))
+      this->Pass.Moving.Contains(s.Mesh.Position[v]))
     {
       this->Active.push_back(v);
     }
@@ -88,7 +86,7 @@ void SurfaceIteration::CollectActive()
 
 void SurfaceIteration::CollectWorking()
 {
-  // The active vertices and the corners of all faces that move with them.
+  // The active vertices and all corners of their faces.
   SurfaceState& s = this->State;
   for (const int v : this->Working)
   {
@@ -117,17 +115,17 @@ void SurfaceIteration::AddUnmoved(int v)
   }
 }
 
-bool SurfaceIteration::IsSuspect(int v) const
+bool SurfaceIteration::IsDirty(int v) const
 {
-  // A star that had some room when it was examined needs no new look before it has used half of
-  // it: whatever comes near has used half of its own and is examined itself.
-  return this->State.Drift[v] > 0.5f * this->State.Slack[v];
+  // A star needs no new intersection test until its motion exceeds half of its clearance. A star
+  // that comes near has then exceeded half of its own clearance, and is tested itself.
+  return this->State.MotionSinceTest[v] > 0.5f * this->State.ClearanceAtTest[v];
 }
 
-void SurfaceIteration::CollectSuspects()
+void SurfaceIteration::CollectDirtyVertices()
 {
   SurfaceState& s = this->State;
-  this->Suspects.clear();
+  this->DirtyVertices.clear();
   for (const int v : this->Working)
   {
     const Ring& ring = s.Mesh.Rings[v];
@@ -136,12 +134,12 @@ void SurfaceIteration::CollectSuspects()
     {
       moved = std::max(moved, s.Displacement[ring.Item[k]]);
     }
-    s.Drift[v] += moved;
+    s.MotionSinceTest[v] += moved;
     s.IsSlow[v] = moved < SlowDisplacement * s.Sizing.At(v);
-    if (this->IsSuspect(v))
+    if (this->IsDirty(v))
     {
-      this->Suspects.push_back(v);
-      s.Drift[v] = 0;
+      this->DirtyVertices.push_back(v);
+      s.MotionSinceTest[v] = 0;
     }
   }
   for (const int v : this->Active)
@@ -157,7 +155,7 @@ void SurfaceIteration::UpdateChanged(SurfaceState& state, std::vector<int> chang
   {
     if (state.Mesh.IsAlive(v))
     {
-      state.Drift[v] = SurfaceState::NotExamined; // Its star is another one.
+      state.MotionSinceTest[v] = SurfaceState::NeverTested; // Its star has changed.
       state.UpdateShape(v);
     }
   }
@@ -165,19 +163,19 @@ void SurfaceIteration::UpdateChanged(SurfaceState& state, std::vector<int> chang
 
 void SurfaceIteration::RollBackVertex(int v)
 {
-  constexpr int most = 200; // Of what fits into the count.
+  constexpr int most = 200; // within the range of the counter
   SurfaceState& s = this->State;
   s.MoveTo(v, s.PreviousPosition[v]);
   s.Velocity[v] = Vector();
   s.RollbackCount[v] = static_cast<std::uint8_t>(std::min(s.RollbackCount[v] + 2, most));
   s.Activate(v);
-  s.Drift[v] = SurfaceState::NotExamined;
+  s.MotionSinceTest[v] = SurfaceState::NeverTested;
 }
 
 void SurfaceIteration::RollBack()
 {
-  // The mesh before the displacement was free of intersections, and so is any mesh all of whose
-  // vertices have gone back: roll back more and more about each intersection until none is left.
+  // The mesh before the displacement had no intersections. Roll back more and more vertices around
+  // each intersection until none is left.
   SurfaceState& s = this->State;
   const std::vector<Proximity::FacePair>* intersections = &this->Near.Intersections();
   std::vector<int> back;
@@ -202,23 +200,23 @@ void SurfaceIteration::RollBack()
     }
     if (round == rounds - 1)
     {
-      back = this->Working; // All that has moved: the mesh before, which was free of them.
+      back = this->Working; // All moved vertices: restores the mesh before the displacement.
     }
     SortUnique(back);
-    // What is not in the working list has not moved; its previous position is an old one.
-    back.erase(std::remove_if(back.begin(), back.end(),
-                 [&s](int v) { return !(s.Marks[v] & IsWorking); }),
+    // Vertices that are not in Working have not moved. Their previous positions are outdated.
+    back.erase(
+      std::remove_if(back.begin(), back.end(), [&s](int v) { return !(s.Marks[v] & IsWorking); }),
       back.end());
-    std::vector<int> examined = back;
+    std::vector<int> tested = back;
     for (const int v : back)
     {
       this->RollBackVertex(v);
       const Ring& ring = s.Mesh.Rings[v];
-      examined.insert(examined.end(), ring.Item, ring.Item + ring.Count);
+      tested.insert(tested.end(), ring.Item, ring.Item + ring.Count);
     }
-    SortUnique(examined);
-    s.UpdateShape(examined, OnThisThread());
-    this->Recheck.Examine(s, examined, OnThisThread());
+    SortUnique(tested);
+    s.UpdateShape(tested, OnThisThread());
+    this->Recheck.Test(s, tested, OnThisThread());
     this->Recheck.Clear();
     intersections = &this->Recheck.Intersections();
   }
@@ -231,15 +229,15 @@ void SurfaceIteration::SplitBeforeVerification()
   this->Edits.Split(this->Working);
   for (std::size_t i = unsplit; i < this->Working.size(); ++i)
   {
-    s.Marks[this->Working[i]] |= IsWorking; // New, with a previous position of its own.
+    s.Marks[this->Working[i]] |= IsWorking; // A new vertex has a previous position, too.
   }
   for (const int v : this->Edits.Changed())
   {
     this->AddUnmoved(v);
   }
   UpdateChanged(s, this->Edits.TakeChanged());
-  // What could not be split gets no longer: verification relies on edges that are legal.
-  // Where one goes back, an edge to another one that has moved with it may become too long.
+  // Edges that could not be split must not grow, because verification requires legal edges. The
+  // rollback of a vertex may make an edge to another moved vertex too long.
   std::vector<int> stars;
   do
   {
@@ -271,7 +269,7 @@ void SurfaceIteration::RestoreConstraints()
     std::uint8_t& count = s.RollbackCount[v];
     count = static_cast<std::uint8_t>(count > 0 ? count - 1 : 0);
   }
-  // What was rolled back, or drawn back from a cut, may have made edges too long.
+  // Rollbacks and cuts may have made edges too long.
   const std::vector<int>& changed = this->Edits.Changed();
   this->Working.insert(this->Working.end(), changed.begin(), changed.end());
   UpdateChanged(s, this->Edits.TakeChanged());
@@ -281,19 +279,18 @@ void SurfaceIteration::RestoreConstraints()
 
 void SurfaceIteration::WatchComponents()
 {
-  // A component may become a small one without any change of topology. After a merge a small cavity
-  // may be a part of the main component, and must not be judged as the cavity it was: labels are
-  // made afresh before anything is deleted.
-  EditShare& share = this->Visit.Share;
+  // A component may become small without a change of topology. After a merge, a small cavity may be
+  // part of the main component. Therefore components are labelled again before any deletion.
+  EditContext& context = this->Pass.Context;
   const EditCounts& then = this->Labelled;
-  if (share.Counts.Merges + share.Counts.Cuts > then.Merges + then.Cuts ||
-    share.Counts.Collapses > then.Collapses + SuspiciousCollapses)
+  if (context.Counts.Merges + context.Counts.Cuts > then.Merges + then.Cuts ||
+    context.Counts.Collapses > then.Collapses + SuspiciousCollapses)
   {
-    this->Watch.LabelSmall(this->State, this->Visit.First, this->Visit.End(),
-      this->Visit.Written, this->Visit.Large.After(share.Counts));
-    this->Labelled = share.Counts;
+    this->Watch.LabelSmall(this->State, this->Pass.First, this->Pass.End(), this->Pass.Written,
+      this->Pass.Large.After(context.Counts));
+    this->Labelled = context.Counts;
   }
-  this->Watch.DeleteDegenerate(this->State, &share);
+  this->Watch.DeleteDegenerate(this->State, &context);
 }
 
 double SurfaceIteration::KineticEnergy() const
@@ -311,10 +308,10 @@ double SurfaceIteration::KineticEnergy() const
 HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
 {
   SurfaceState& s = this->State;
-  EditShare& share = this->Visit.Share;
-  const EditCounts counts = share.Counts;
-  const int added = share.Room.Added;
-  const int characteristic = share.EulerCharacteristic;
+  EditContext& context = this->Pass.Context;
+  const EditCounts counts = context.Counts;
+  const int added = context.Slots.Added;
+  const int characteristic = context.EulerCharacteristic;
   HistoryRow row;
   this->CollectActive();
   row.ActiveVertices = static_cast<int>(this->Active.size());
@@ -329,11 +326,11 @@ HistoryRow SurfaceIteration::Run(const Dynamics& dynamics, Mode mode)
   this->WatchComponents();
   assert(std::all_of(this->Working.begin(), this->Working.end(),
     [this, &s](int v)
-    { return !s.Mesh.IsAlive(v) || this->Visit.Written.Contains(s.Mesh.Position[v]); }));
+    { return !s.Mesh.IsAlive(v) || this->Pass.Written.Contains(s.Mesh.Position[v]); }));
 
-  row.Add(share.Counts - counts);
-  row.Vertices = share.Room.Added - added;
-  row.EulerCharacteristic = share.EulerCharacteristic - characteristic;
+  row.Add(context.Counts - counts);
+  row.Vertices = context.Slots.Added - added;
+  row.EulerCharacteristic = context.EulerCharacteristic - characteristic;
   row.KineticEnergy = this->KineticEnergy();
   return row;
 }
@@ -358,8 +355,8 @@ void SurfaceIteration::Move(const Dynamics& dynamics, Mode mode)
 
   this->SplitBeforeVerification();
 
-  this->CollectSuspects();
-  this->Near.Examine(s, this->Suspects, this->Threads);
+  this->CollectDirtyVertices();
+  this->Near.Test(s, this->DirtyVertices, this->Threads);
   this->RollBack();
   if (evolves)
   {

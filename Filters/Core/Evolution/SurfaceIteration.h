@@ -16,36 +16,31 @@
 namespace volumic
 {
 /**
- * The iterations of a visit: velocities, displacement, splits, verification with roll back, merges
- * and cuts, the other edits, components that must go. It keeps what one iteration tells the next:
- * which pairs of vertices are close, which components are small. Before and after each call the
- * surface is closed, oriented, manifold and, under the bound below, free of intersections.
- * Sequential, but for forces, shapes and the search for what is near, in which idle threads share;
- * others may be at work in visits of blocks that do not touch this one.
+ * Iterations of a block pass: velocities, displacement, splits, verification with rollback, merges
+ * and cuts, other edits, deletion of degenerate components. Close pairs of vertices and small
+ * components are kept between iterations. Before and after each call the surface is closed,
+ * oriented, manifold and, under the bound below, free of intersections. Idle threads help with
+ * forces, shapes and proximity. Blocks that do not touch this one may have passes at the same time.
  *
- * Why it stays free of them, by what changes the mesh:
- * - Splits change no place of the surface, but for rounding, less than SizingField::Contact. They
- *   come first and last, so that no edge is longer than eq. (1) allows when anything is looked for.
- * - Collapses, flips, removals, moves, merges and cuts: SurfaceEditor tests each new face
- *   against all that it can reach (NewFacesIntersect), before it edits; none is left out.
- * - Displacements: Proximity tests what is within reach and faces the other way, or is a
- *   star that may be folded. Where two parts of a surface first meet in the course of it, each lies
- *   on its own side of the surface, so a plane touches both and parts them: a normal of one is the
- *   opposite of one of the other, if those of an edge or a corner are all between those of its
- *   faces, which are in its cone. The cones are compared with 30 degrees to spare
- *   (SurfaceState::AreOpposed), for what normals turn from there to the end of the displacement,
- *   half a delta at most. What intersects is rolled back, and more about it, in the last round all:
- *   that is the mesh of before, which needs no test.
- * - Deletions take whole components away.
- * Divisions are tested like displacements. The tests are conservative (TrianglesIntersect). The bound
- * of 30 degrees is an observation: so all faces are tested against all others, whatever their normals
- * are, wherever a surface is handed out: a given start, a snapshot, the end of a level and a run that
- * was stopped (CountIntersecting).
+ * Reasons for the absence of intersections, by operation:
+ * - Splits do not move the surface, except for rounding below SizingField::Contact. They come first
+ *   and last, so no edge is longer than eq. (1) allows in a search.
+ * - Collapses, flips, removals, moves, merges and cuts: SurfaceEditor tests each new face against
+ * all faces within reach (NewFacesIntersect) before the edit.
+ * - Displacements: Proximity tests faces within reach with opposed normals, and stars that may be
+ *   folded. At first contact, a plane separates the two parts, so their normals are opposed. Normal
+ *   cones are compared with a margin of 30 degrees (SurfaceState::AreOpposed) for the rotation of
+ *   normals until the end of the displacement, at most half a delta. Intersecting stars are rolled
+ *   back, with growing surroundings, in the last round all vertices. This restores the valid mesh.
+ * - Deletions remove whole components.
+ * Divisions are tested like displacements. Tests are conservative (TrianglesIntersect). The bound
+ * of 30 degrees is an observation. Therefore all faces are tested against each other, whatever
+ * their normals are, in each initial surface, snapshot and result (CountIntersecting).
  */
 class SurfaceIteration
 {
 public:
-  /** What drives it: forces; residual and shape, by long ways or by short ones; shape alone. */
+  /** Motion: by forces, or by Dynamics::Relax() with its three options. */
   enum class Mode
   {
     Evolve,
@@ -55,36 +50,33 @@ public:
   };
 
   /**
-   * Works on the vertices of a visit, which must have a shape that is up to date; all others keep
-   * still, as if they were not active. Components are watched that are small and lie where the visit
-   * may write.
+   * Move the vertices of a block pass, whose shapes must be up to date. All other vertices are
+   * fixed. Small components within the region of the pass are watched.
    * @param evidence, topologyChanges see Remesher
    */
-  SurfaceIteration(SurfaceState& state, BlockVisit& visit, const Field* evidence,
+  SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
     bool topologyChanges, Executor& threads = OnThisThread());
   ~SurfaceIteration();
   SurfaceIteration(const SurfaceIteration&) = delete;
   SurfaceIteration& operator=(const SurfaceIteration&) = delete;
 
-  /**
-   * @return what it has done; of vertices and Euler characteristic, by how many there are more
-   */
+  /** Run an iteration. @return its row; Vertices and EulerCharacteristic are differences */
   HistoryRow Run(const Dynamics& dynamics, Mode mode);
 
-  /** The vertices that the last iteration has found active. */
+  /** Return the active vertices of the last iteration. */
   const std::vector<int>& ActiveVertices() const { return this->Active; }
 
-  /** After edits: shape of the vertices, and that their stars must be examined again. */
+  /** After edits: update the shapes of vertices, and mark their stars for new tests. */
   static void UpdateChanged(SurfaceState& state, std::vector<int> changed);
 
 private:
-  /** Displaces the active vertices, verifies that, and rolls back. */
+  /** Displace the active vertices, test for intersections, and roll back. */
   void Move(const Dynamics& dynamics, Mode mode);
   void CollectActive();
   void CollectWorking();
   void AddUnmoved(int v);
-  bool IsSuspect(int v) const;
-  void CollectSuspects();
+  bool IsDirty(int v) const;
+  void CollectDirtyVertices();
   void RollBack();
   void RollBackVertex(int v);
   void SplitBeforeVerification();
@@ -93,17 +85,17 @@ private:
   double KineticEnergy() const;
 
   SurfaceState& State;
-  BlockVisit& Visit;
+  BlockPass& Pass;
   Executor& Threads;
   Remesher Edits;
-  Proximity Near;    ///< Of all; keeps the pairs.
-  Proximity Recheck; ///< Of what has been rolled back.
+  Proximity Near;    ///< of all vertices; keeps the pairs
+  Proximity Recheck; ///< of vertices that were rolled back
   ComponentWatch Watch;
   Dynamics::Step Step;
   std::vector<int> Active;
-  std::vector<int> Working;  ///< See CollectWorking; they have the mark IsWorking.
-  std::vector<int> Suspects; ///< See CollectSuspects.
-  EditCounts Labelled;       ///< Of the share, when components were labelled.
+  std::vector<int> Working;       ///< see CollectWorking(); marked with IsWorking
+  std::vector<int> DirtyVertices; ///< see CollectDirtyVertices()
+  EditCounts Labelled;            ///< counters of the edit context at the last labelling
 };
 }
 

@@ -14,8 +14,8 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread hands out at a time. */
-constexpr std::size_t ResultSpan = 256; // They look at voxels: HostThreads::For.
+/** Vertices per span of a parallel loop. */
+constexpr std::size_t ResultSpan = 256; // Small, because of voxel accesses.
 }
 
 SurfaceResult MakeResult(
@@ -39,7 +39,7 @@ SurfaceResult MakeResult(
   result.Held.resize(n);
   result.Size.resize(state.Sizing.IsGraded() ? n : 0);
   result.Thickness.resize(grading.ThinParts ? n : 0);
-  LargeVector<int> pointOf(state.Mesh.Rings.size(), -1); // As ToIndexed numbers them.
+  LargeVector<int> pointOf(state.Mesh.Rings.size(), -1); // numbering of ToIndexed()
   ForSpans(executor, n, ResultSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -62,7 +62,7 @@ SurfaceResult MakeResult(
         pointOf[v] = static_cast<int>(point);
       }
     });
-  if (state.Sizing.KeepsGradation()) // It has come to rest, or was at it.
+  if (state.Sizing.KeepsGradation()) // after convergence
   {
     result.FitToTolerance = sizes.Measure();
   }

@@ -15,18 +15,18 @@
 
 namespace volumic
 {
-/** The surface as handed out: compact, workspace coordinates. */
+/** Resulting surface: compact arrays, computational space. */
 struct SurfaceResult : IndexedSurface
 {
-  LargeVector<std::array<float, 3>> Normals;  ///< Unit, outward, per point.
-  LargeVector<float> Residual;                ///< Field minus iso-value, per point.
-  LargeVector<unsigned char> Motionless;      ///< 1 where frozen, per point.
-  LargeVector<unsigned char> Held;            ///< Per point, see RemainingContacts.
-  LargeVector<std::array<int, 2>> Contacts;   ///< Pairs of points, see RemainingContacts.
-  double Delta = 0.;                          ///< delta_h, workspace.
-  LargeVector<float> Size;      ///< Of a graded surface delta per point, workspace; else empty.
-  LargeVector<float> Thickness; ///< With thin parts, per point, workspace; else empty.
-  std::optional<Fit> FitToTolerance; ///< With a tolerance, from the time on when it rested.
+  LargeVector<std::array<float, 3>> Normals; ///< unit vectors, outward, per point
+  LargeVector<float> Residual;               ///< field minus iso-value, per point
+  LargeVector<unsigned char> Motionless;     ///< 1: converged, per point
+  LargeVector<unsigned char> Held;           ///< per point, see RemainingContacts
+  LargeVector<std::array<int, 2>> Contacts;  ///< pairs of points, see RemainingContacts
+  double Delta = 0.;                         ///< delta_h
+  LargeVector<float> Size;                   ///< delta per point of a graded surface, else empty
+  LargeVector<float> Thickness;              ///< per point with thin parts, else empty
+  std::optional<Fit> FitToTolerance;         ///< with a tolerance, after convergence
 
   /** Call visit(list) for each list with one entry per point (some are empty). */
   template <typename Visit>
@@ -42,7 +42,7 @@ struct SurfaceResult : IndexedSurface
   }
 };
 
-/** Of a surface between sweeps, whose grid is up to date. The same for any executor. */
+/** Create the result of a surface between sweeps, whose grid is up to date. */
 SurfaceResult MakeResult(
   SurfaceState& state, const Field& field, const Grading& grading, Executor& executor);
 }

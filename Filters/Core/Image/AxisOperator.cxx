@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/AxisOperator.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace
 /** w of eq. 5. */
 constexpr std::array<double, 5> Kernel = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
 
-/** The weights of one output voxel before all of them are brought to the same number. */
+/** Weights of one output voxel, before padding. */
 struct Band
 {
   std::int64_t First = 0;
@@ -23,40 +23,40 @@ struct Band
   std::array<double, AxisOperator::MaximumNumberOfTaps> Weight{};
 };
 
-/** Lower voxel and share of the upper one for a place along the axis. */
-struct Place
+/** Position along the axis: lower voxel, and weight of the upper one. */
+struct Sample
 {
   std::int64_t Voxel;
-  double Share;
+  double Fraction;
 };
 
-Place Locate(double place, std::int64_t size)
+Sample Locate(double position, std::int64_t size)
 {
   const double last = static_cast<double>(size - 1);
-  const double inside = std::clamp(place, 0.0, last);
+  const double inside = std::clamp(position, 0.0, last);
   const auto voxel = static_cast<std::int64_t>(std::floor(inside));
   return { voxel, inside - static_cast<double>(voxel) };
 }
 
 Band MakeBand(double centre, double offset, std::int64_t size)
 {
-  std::array<Place, 5> places;
+  std::array<Sample, 5> samples;
   Band band;
   band.First = size;
   for (int m = -2; m <= 2; ++m)
   {
-    Place& place = places[m + 2];
-    place = Locate(centre + m * offset, size);
-    band.First = std::min(band.First, place.Voxel);
-    band.Last = std::max(band.Last, place.Voxel + (place.Share > 0.0 ? 1 : 0));
+    Sample& sample = samples[m + 2];
+    sample = Locate(centre + m * offset, size);
+    band.First = std::min(band.First, sample.Voxel);
+    band.Last = std::max(band.Last, sample.Voxel + (sample.Fraction > 0.0 ? 1 : 0));
   }
   for (int m = 0; m < 5; ++m)
   {
-    const auto tap = static_cast<std::size_t>(places[m].Voxel - band.First);
-    band.Weight[tap] += Kernel[m] * (1.0 - places[m].Share);
-    if (places[m].Share > 0.0)
+    const auto tap = static_cast<std::size_t>(samples[m].Voxel - band.First);
+    band.Weight[tap] += Kernel[m] * (1.0 - samples[m].Fraction);
+    if (samples[m].Fraction > 0.0)
     {
-      band.Weight[tap + 1] += Kernel[m] * places[m].Share;
+      band.Weight[tap + 1] += Kernel[m] * samples[m].Fraction;
     }
   }
   return band;
@@ -68,7 +68,8 @@ AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, doub
 {
   if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
   {
-    Refuse("AxisOperator: ", inputSize, " to ", outputSize, " voxels with an offset of ", offset,
+    ThrowInvalidArgument("AxisOperator: ", inputSize, " to ", outputSize,
+      " voxels with an offset of ", offset,
       " voxels; sizes must be at least 1, the offset in [0, 1].");
   }
   std::vector<Band> bands(outputSize);

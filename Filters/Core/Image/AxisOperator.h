@@ -9,28 +9,25 @@
 namespace volumic
 {
 /**
- * Equation 5 along one axis, as a banded linear operator: output voxel i is the sum over t of
- * Weight(i, t) times input voxel First(i) + t.
+ * Banded linear operator of eq. 5 along one axis: output voxel i is the sum over t of Weight(i, t)
+ * times input voxel First(i) + t.
  *
- * The interpolation of V_h and the kernel (1 4 6 4 1)/16 both factor over the axes, so that the
- * product of three such operators equals the sum over 125 x 8 voxels of eq. 5. What we do
- * differently from the paper: it computes the five places and interpolates each of them; here both
- * steps are folded into at most six weights, computed once for all rows. Weights fall on the
- * nearest voxel where places lie past the border.
+ * The interpolation of V_h and the kernel (1 4 6 4 1)/16 are separable. The product of three
+ * operators equals the sum over 125 x 8 voxels of eq. 5. The paper interpolates at each of the five
+ * kernel positions; here both steps are combined in at most six weights, computed once for all
+ * rows. Positions beyond the border take the nearest voxel.
  */
 class AxisOperator
 {
 public:
-  /**
-   * A place between two voxels touches both: five places at most a voxel apart touch six voxels.
-   */
+  /** Five positions, at most a voxel apart, lie between six voxels. */
   static constexpr int MaximumNumberOfTaps = 6;
 
   /**
    * @param inputSize  M_h, voxels of level h along the axis
    * @param outputSize M_{h+1}
-   * @param offset     distance of two places of the kernel, U_h / (mu/M_h), in voxels of level h,
-   *                   in [0, 1]
+   * @param offset     distance between kernel positions, U_h / (mu/M_h), in voxels of level h, in
+   *                   [0, 1]
    * @throws std::invalid_argument if a size is under 1 or the offset outside [0, 1].
    */
   AxisOperator(std::int64_t inputSize, std::int64_t outputSize, double offset);
@@ -38,15 +35,13 @@ public:
   std::int64_t InputSize() const { return this->Input; }
   std::int64_t OutputSize() const { return static_cast<std::int64_t>(this->FirstVoxel.size()); }
 
-  /** Number of weights of every output voxel (short ones are filled up with zeros). */
+  /** Return the number of weights of each output voxel, padded with zeros. */
   int NumberOfTaps() const { return this->Taps; }
 
-  /**
-   * First input voxel of an output voxel; First(i) + NumberOfTaps() <= InputSize(). Grows with i.
-   */
+  /** Return the first input voxel of an output voxel. First(i) + NumberOfTaps() <= InputSize(). */
   std::int64_t First(std::int64_t output) const { return this->FirstVoxel[output]; }
 
-  /** The weights of an output voxel, NumberOfTaps() of them; their sum is 1. */
+  /** Return the NumberOfTaps() weights of an output voxel. Their sum is 1. */
   const double* Weights(std::int64_t output) const { return &this->Weight[output * this->Taps]; }
 
 private:

@@ -10,7 +10,7 @@ namespace volumic
 {
 namespace
 {
-/** Slope at which the force reaches its bound, in typical slopes. */
+/** Slope with the maximum force, in typical slopes. */
 constexpr double SlopeAtBound = 0.5;
 
 LevelImage MapOf(const LevelImage& image)
@@ -18,7 +18,7 @@ LevelImage MapOf(const LevelImage& image)
   LevelImage map = image;
   map.Values = image.Edges;
   map.Edges = VoxelValues();
-  map.Base = 0.; // Only differences count.
+  map.Base = 0.; // Only differences matter.
   return map;
 }
 
@@ -33,7 +33,7 @@ FieldOptions MapOptions()
 EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
   : Map(MapOf(image), MapOptions(), executor)
 {
-  // Central differences of the inner voxels, a sum per slice.
+  // Central differences of the inner voxels, one sum per slice.
   const auto& size = image.Size;
   struct Sums
   {
@@ -61,7 +61,7 @@ EdgeAttraction::EdgeAttraction(const LevelImage& image, Executor& executor)
                 const double x = (edges[i + 1] - edges[i - 1]) / image.Step[0];
                 const double y = (edges[i + dy] - edges[i - dy]) / image.Step[1];
                 const double z = (edges[i + dz] - edges[i - dz]) / image.Step[2];
-                const double squared = 0.25 * (x * x + y * y + z * z); // Over two steps.
+                const double squared = 0.25 * (x * x + y * y + z * z); // differences over two steps
                 sums.First += std::sqrt(squared);
                 sums.Second += squared;
               }

@@ -10,29 +10,30 @@
 namespace volumic
 {
 /**
- * Attraction by edges detected beforehand (the paper's section 7 names it as future work and gives
- * no formula): LevelImage::Edges, which is large on edges, is minus a potential whose valleys are
- * the edges. A vertex descends it along its normal.
+ * Attraction by detected edges (future work without a formula in section 7 of the paper). The
+ * negated edge map LevelImage::Edges is a potential with valleys at the edges. A vertex descends it
+ * along its normal.
  *
- * The scale of the map does not matter: slopes count in parts of the typical slope of the map at
- * the level, the mean over the voxels of |gradient| weighted by itself, sum g^2 / sum g, which the
- * flat places between the edges leave alone.
+ * The force does not depend on the scale of the map. Slopes are relative to the typical slope of
+ * the map at the level, sum g^2 / sum g over the voxels with g = |gradient|, to which flat regions
+ * do not contribute.
  */
 class EdgeAttraction
 {
 public:
-  /** @param image with Edges, which must outlive the object. */
+  /** @param image with Edges, which must outlive the object */
   EdgeAttraction(const LevelImage& image, Executor& executor);
 
   /**
-   * The force along an outward unit normal for the weight 1: gradient of the map . n, in half of
-   * the typical slope, clamped to [-1, 1]. Outside the image the map is that of the nearest voxel.
+   * Return the force along an outward unit normal for weight 1: the gradient of the map along the
+   * normal, divided by half of the typical slope, clamped to [-1, 1]. Outside the image the nearest
+   * voxel counts.
    */
   float Along(const Vector& position, const Vector& normal) const;
 
 private:
   Field Map;
-  float Scale = 0; ///< 0 where the map is flat.
+  float Scale = 0; ///< 0: the map is constant
 };
 }
 

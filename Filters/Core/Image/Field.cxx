@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/Field.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Image/VoxelRows.h"
 
 #include <algorithm>
@@ -14,31 +14,26 @@ namespace volumic
 {
 namespace
 {
-/** Voxels that one thread looks through at a time for the extreme values. */
+/** Voxels per span of the search for extremes. */
 constexpr std::size_t RangeSpan = 1 << 16;
-/** Spans of them under which a chunk is not worth a thread. */
+/** Minimum number of spans per thread. */
 constexpr std::size_t RangeGrain = 4;
-/** The typical slope is measured on about as many rows: enough for a mean. */
+/** Approximate number of rows on which the typical slope is measured. */
 constexpr std::int64_t SlopeRows = 4096;
-/** Of these, those that one thread looks at at a time. */
+/** Rows per span. */
 constexpr std::size_t SlopeSpan = 128;
-/**
- * As many voxels past the border everything is background or replicated (until it fades): far
- * places are taken to there, which also keeps the indices small.
+/** Positions are clamped to this number of voxels beyond the border, where the field is constant.
  */
 constexpr float Beyond = 3.f;
 }
 
 Field::Field(const LevelImage& image, const FieldOptions& options, Executor& executor)
-  : Level(image)
-  , Around(image)
-  , Iso(static_cast<float>(options.IsoValue - image.Base))
-  , Sign(options.ObjectIsBright ? 1.f : -1.f)
-  , Replicate(options.BorderValue == Border::Replicate)
+  : Level(image), Around(image), Iso(static_cast<float>(options.IsoValue - image.Base)),
+    Sign(options.ObjectIsBright ? 1.f : -1.f), Replicate(options.BorderValue == Border::Replicate)
 {
   if (!image.Values || image.Size[0] < 1 || image.Size[1] < 1 || image.Size[2] < 1)
   {
-    Refuse("The image of a level has no voxels.");
+    ThrowInvalidArgument("The image of a level has no voxels.");
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -63,7 +58,7 @@ std::array<float, 2> Field::FindExtremes(Executor& executor) const
         {
           for (std::size_t b = begin; b < end; ++b)
           {
-            // As they are stored: the values are in the same order.
+            // Stored voxels and values have the same order.
             auto low = voxels.Voxels[b * RangeSpan];
             auto high = low;
             const std::size_t last = std::min(count, (b + 1) * RangeSpan);
@@ -94,18 +89,18 @@ void Field::MeasureRange(const std::array<float, 2>& extremes)
 
 namespace
 {
-/** From one row of voxels whose slopes are measured to the next. */
+/** Return the number of rows from one measured row to the next. */
 std::int64_t SlopeStride(const std::array<int, 3>& size)
 {
-  // Odd: so the rows differ from slice to slice where a slice has an even number of them.
+  // Odd, so that the measured rows differ between slices with an even number of rows.
   const std::int64_t rows = static_cast<std::int64_t>(size[1]) * size[2];
   return std::max<std::int64_t>(1, rows / SlopeRows) | 1;
 }
 
-/** Edges between voxels that the iso-value lies on. */
+/** Edges between voxels on different sides of the iso-value. */
 struct Crossings
 {
-  double Slopes = 0.; ///< Their sum.
+  double Slopes = 0.; ///< sum of the slopes
   std::int64_t Count = 0;
 };
 }
@@ -118,7 +113,7 @@ void Field::MeasureSlope(Executor& executor)
   const auto sampled = static_cast<std::size_t>((rows + stride - 1) / stride);
   const auto length = static_cast<std::size_t>(size[0]);
   std::vector<Crossings> ofSpans((sampled + SlopeSpan - 1) / SlopeSpan);
-  const auto look = [this](Crossings& found, float here, float beside, int axis)
+  const auto measure = [this](Crossings& found, float here, float beside, int axis)
   {
     if ((here > this->Iso) != (beside > this->Iso))
     {
@@ -129,8 +124,8 @@ void Field::MeasureSlope(Executor& executor)
   ForSpans(executor, sampled, SlopeSpan,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
-      std::vector<float> work(3 * length);
-      float* values = work.data();
+      std::vector<float> buffer(3 * length);
+      float* values = buffer.data();
       float* below = values + length;
       float* behind = below + length;
       for (std::size_t i = begin; i < end; ++i)
@@ -143,9 +138,9 @@ void Field::MeasureSlope(Executor& executor)
         this->Level.Values.Copy(this->Offset(0, j, std::min(k + 1, size[2] - 1)), size[0], behind);
         for (int x = 0; x + 1 < size[0]; ++x)
         {
-          look(ofSpans[span], values[x], values[x + 1], 0);
-          look(ofSpans[span], values[x], below[x], 1);
-          look(ofSpans[span], values[x], behind[x], 2);
+          measure(ofSpans[span], values[x], values[x + 1], 0);
+          measure(ofSpans[span], values[x], below[x], 1);
+          measure(ofSpans[span], values[x], behind[x], 2);
         }
       }
     });
@@ -166,16 +161,16 @@ void Field::MeasureSlope(Executor& executor)
 
 Field::Cell Field::Locate(const Vector& position) const
 {
-  const auto place = [this](float x, int axis)
+  const auto coordinate = [this](float x, int axis)
   {
     const float scaled = x * this->Inverse[axis];
     const auto size = static_cast<float>(this->Level.Size[axis]);
     return std::min(std::max(scaled, -Beyond), size + (Beyond - 1.f));
   };
-  const float x = place(position.X, 0);
-  const float y = place(position.Y, 1);
-  const float z = place(position.Z, 2);
-  constexpr int positive = static_cast<int>(Beyond) + 1; // Makes a floor of the cut-off.
+  const float x = coordinate(position.X, 0);
+  const float y = coordinate(position.Y, 1);
+  const float z = coordinate(position.Z, 2);
+  constexpr int positive = static_cast<int>(Beyond) + 1; // Makes truncation a floor.
   const int i = static_cast<int>(x + positive) - positive;
   const int j = static_cast<int>(y + positive) - positive;
   const int k = static_cast<int>(z + positive) - positive;
@@ -221,13 +216,13 @@ Field::Sample Field::Faded(const Vector& position, const Sample& sample) const
     return sample;
   }
   const ImageMargin::Depth depth = this->Around.DepthAt(position);
-  if (!(depth.Share > 0))
+  if (!(depth.Fraction > 0))
   {
     return sample;
   }
   const float fall = this->Sign * (this->Outside - this->Iso) - sample.Value;
-  return { sample.Value + depth.Share * fall,
-    sample.Gradient * (1 - depth.Share) + depth.Slope * fall };
+  return { sample.Value + depth.Fraction * fall,
+    sample.Gradient * (1 - depth.Fraction) + depth.Slope * fall };
 }
 
 float Field::ValueAt(const Vector& position) const
@@ -269,8 +264,8 @@ Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::p
   const float z = cell.Z;
   // Rows at y = -1, 0, 1, 2 in the slices at z = 0 and 1; those at y = 0, 1 at z = -1 and 2.
   const std::ptrdiff_t corner = first - 1 - row;
-  const VoxelRows near = ReadRows(
-    voxels, { corner, corner + row, corner + 2 * row, corner + 3 * row });
+  const VoxelRows near =
+    ReadRows(voxels, { corner, corner + row, corner + 2 * row, corner + 3 * row });
   const std::ptrdiff_t next = corner + slice;
   const VoxelRows far = ReadRows(voxels, { next, next + row, next + 2 * row, next + 3 * row });
   const std::ptrdiff_t before = corner + row - slice;
@@ -291,19 +286,17 @@ Field::Sample Field::Interpolated(const Cell& cell, const Voxels& voxels, std::p
   slope(near).Store(slopes[0]);
   slope(far).Store(slopes[1]);
   const auto between = [y](const float* v, int j) { return v[j] + y * (v[j + 1] - v[j]); };
-  const auto slopeY = [y](const float* v)
-  { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
+  const auto slopeY = [y](const float* v) { return (1 - y) * (v[2] - v[0]) + y * (v[3] - v[1]); };
   const float low = between(values[0], 1);
   const float high = between(values[1], 1);
   const float gx = (1 - z) * ((1 - y) * slopes[0][1] + y * slopes[0][2]) +
     z * ((1 - y) * slopes[1][1] + y * slopes[1][2]);
   const float gy = (1 - z) * slopeY(values[0]) + z * slopeY(values[1]);
-  const float gz =
-    (1 - z) * (high - between(values[2], 0)) + z * (between(values[2], 2) - low);
+  const float gz = (1 - z) * (high - between(values[2], 0)) + z * (between(values[2], 2) - low);
   const float half = 0.5f * this->Sign;
   return { this->Sign * (low + z * (high - low) - this->Iso),
-    Vector(half * gx * this->Inverse[0], half * gy * this->Inverse[1],
-      half * gz * this->Inverse[2]) };
+    Vector(
+      half * gx * this->Inverse[0], half * gy * this->Inverse[1], half * gz * this->Inverse[2]) };
 }
 
 Field::Sample Field::At(const Vector& position) const
@@ -338,9 +331,9 @@ Field::Sample Field::At(const Vector& position) const
 
 namespace
 {
-/** Floor of the gradient, in TypicalSlope. */
+/** Smallest divisor, in TypicalSlope(). */
 constexpr float GradientFloor = 0.15f;
-/** Least cosine between a normal and the gradient, for a step along the one to follow the other. */
+/** Smallest cosine between normal and gradient for a Newton step. */
 constexpr float LeastAlignment = 0.5f;
 }
 
@@ -351,7 +344,7 @@ float Field::SlopeOf(const Sample& sample) const
 
 float Field::StepToIso(const Sample& sample, const Vector& normal, float longest) const
 {
-  // Value grows against the normal: towards the inside.
+  // Value increases inward.
   const float slope = -Dot(sample.Gradient, normal);
   if (slope <= GradientFloor * this->Slope || slope < LeastAlignment * Length(sample.Gradient))
   {

@@ -18,15 +18,15 @@
 namespace volumic
 {
 /**
- * The continuous field of a level (the paper's section 4.1), as the surface wants it: Value is the
- * image minus the iso-value, with the sign changed for dark objects, so that it is positive on
- * the object's side. Trilinear between voxels; the gradient is the trilinear interpolation of
- * the discrete gradient (central differences), not the derivative of the interpolant.
+ * Continuous field of a level (section 4.1 of the paper). Value is the image minus the iso-value,
+ * negated for dark objects, so it is positive inside the object. It is interpolated trilinearly.
+ * The gradient is the trilinear interpolation of central differences, not the derivative of Value.
  *
- * Outside the image the voxels count as background (the extreme value of the image away from the
- * object, or as far below the iso-value as the object is above it, whichever is the stronger), so
- * the field ramps over one voxel; or, for Border::Replicate, as the nearest voxel as far as
- * ImageMargin::Width, and from there on as background, ramping over ImageMargin::Ramp.
+ * Outside the image:
+ * - Border::Background: background voxels, so the field falls within one voxel. Their value is the
+ *   lowest Value of the image, or minus the highest one if that is lower.
+ * - Border::Replicate: the nearest voxel up to ImageMargin::Width, then background after
+ *   ImageMargin::Ramp.
  */
 class Field
 {
@@ -34,55 +34,54 @@ public:
   struct Sample
   {
     float Value;
-    Vector Gradient; ///< Of Value, per unit of length of the workspace.
+    Vector Gradient; ///< of Value, per length in the computational space
   };
 
   /** @throws std::invalid_argument for an image without voxels. */
   Field(const LevelImage& image, const FieldOptions& options, Executor& executor);
 
   float ValueAt(const Vector& position) const;
-  /** The image minus the iso-value, whichever side the object is on. */
+  /** Return the image minus the iso-value, also for dark objects. */
   float ResidualAt(const Vector& position) const { return this->Sign * this->ValueAt(position); }
   Sample At(const Vector& position) const;
 
-  /** Extremes of Value in the image; where the highest is not positive there is no object. */
+  /** Return the extremes of Value. There is no object if the highest one is not positive. */
   float Highest() const { return this->HighestValue; }
   float Lowest() const { return this->LowestValue; }
 
   /**
-   * Mean absolute slope of the pairs of neighbouring voxels between which the iso-value lies: the
-   * steepness that a typical piece of the searched surface has. Value per workspace length.
+   * Return the mean absolute slope between neighbouring voxels on different sides of the iso-value,
+   * per length in the computational space.
    */
   float TypicalSlope() const { return this->Slope; }
 
-  /** Length of the gradient, but at least 0.15 TypicalSlope(): safe to divide by on plateaus. */
+  /** Return the length of the gradient, at least 0.15 TypicalSlope(): a safe divisor. */
   float SlopeOf(const Sample& sample) const;
 
   /**
-   * Newton's step along a unit normal onto the isopotential, from where the sample is: its length,
-   * at most `longest`; 0 where the normal says little about the gradient, as a step would only do
-   * harm there.
+   * Return the length of a Newton step along a unit normal onto the isosurface, in
+   * [-longest, longest]; 0 if the normal deviates much from the gradient.
    */
   float StepToIso(const Sample& sample, const Vector& normal, float longest) const;
 
-  /** Whether a place is further off the isopotential than this length, as its slope there tells. */
+  /** Return whether the estimated distance to the isosurface exceeds `distance`. */
   bool IsOff(const Vector& position, float distance) const
   {
     const Sample sample = this->At(position);
     return std::abs(sample.Value) > distance * this->SlopeOf(sample);
   }
 
-  /** What the image counts as outside its voxels, with Border::Background. */
+  /** Return the value of background voxels outside the image. */
   float Background() const { return this->Outside; }
 
   const LevelImage& Image() const { return this->Level; }
   const ImageMargin& Margin() const { return this->Around; }
-  /** Value at a voxel inside the image. */
+  /** Return Value at a voxel of the image. */
   float Voxel(int i, int j, int k) const
   {
     return this->Sign * (this->Level.Values[this->Offset(i, j, k)] - this->Iso);
   }
-  /** Values at so many voxels of a row from (i, j, k) on, all inside the image: for many voxels. */
+  /** Get Value at `count` voxels of a row from (i, j, k) on, all in the image. */
   void Row(int i, int j, int k, int count, float* values) const;
 
 private:
@@ -93,14 +92,15 @@ private:
   };
   std::ptrdiff_t Offset(int i, int j, int k) const
   {
-    return i + static_cast<std::ptrdiff_t>(this->Level.Size[0]) *
+    return i +
+      static_cast<std::ptrdiff_t>(this->Level.Size[0]) *
       (j + static_cast<std::ptrdiff_t>(this->Level.Size[1]) * k);
   }
   Cell Locate(const Vector& position) const;
-  /** As Level.Values, also outside the image. */
+  /** Return an entry of Level.Values, also outside the image. */
   template <typename Voxels>
   float Fetch(const Voxels& voxels, int i, int j, int k) const;
-  /** The sample in the cell of voxels whose first one is `first`, rows and slices apart. */
+  /** Return the sample in the cell with first voxel `first`, given the strides of rows, slices. */
   template <typename Voxels>
   Sample Interpolated(const Cell& cell, const Voxels& voxels, std::ptrdiff_t first,
     std::ptrdiff_t row, std::ptrdiff_t slice) const;
@@ -111,10 +111,10 @@ private:
 
   LevelImage Level;
   ImageMargin Around;
-  float Iso = 0; ///< The iso-value less the image's Base, as Level.Values are.
+  float Iso = 0; ///< iso-value minus Base of the image, as Level.Values
   float Sign = 1;
   float Inverse[3] = { 1, 1, 1 };
-  float Outside = 0; ///< Of the background, as the voxels.
+  float Outside = 0; ///< value of background voxels
   float HighestValue = 0;
   float LowestValue = 0;
   float Slope = 1;

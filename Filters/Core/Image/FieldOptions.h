@@ -5,18 +5,18 @@
 
 namespace volumic
 {
-/** What the field is outside the image. */
+/** Field outside the image. */
 enum class Border
 {
-  Background = 0, ///< Away from the object, ramping over one voxel: surfaces close at the border.
-  Replicate = 1   ///< The nearest voxel, as far as ImageMargin::Width.
+  Background = 0, ///< background after one voxel: surfaces close at the border
+  Replicate = 1   ///< nearest voxel, up to ImageMargin::Width
 };
 
-/** How an image is read as a field with an object in it. */
+/** Definition of the object in an image. */
 struct FieldOptions
 {
-  double IsoValue = 0.;        ///< Field value of the isopotential that is searched.
-  bool ObjectIsBright = true;  ///< The object is where the field is above (off: below) IsoValue.
+  double IsoValue = 0.;       ///< value of the isosurface
+  bool ObjectIsBright = true; ///< object above (off: below) IsoValue
   Border BorderValue = Border::Background;
 };
 }

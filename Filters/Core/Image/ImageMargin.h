@@ -12,17 +12,17 @@
 namespace volumic
 {
 /**
- * How far around the image the surface may go. Whatever drives it past the outermost voxels (a
- * replicated border, a map of edges, the gradient) fades between Width and Width + Ramp beyond
- * them, where all is background, and no displacement leads out any further.
+ * Region around the image in which the surface may move. All forces from outside the image
+ * (replicated border, edge map, gradient) fade between Width and Width + Ramp beyond the outermost
+ * voxels. No displacement leads further out.
  *
- * Made without an image it bounds nothing. Lengths: workspace.
+ * A default-constructed margin is unbounded. Lengths are in the computational space.
  */
 class ImageMargin
 {
 public:
-  static constexpr double Width = 2.; ///< Units of the level; a voxel where that is longer.
-  static constexpr double Ramp = 1.;  ///< Units of the level.
+  static constexpr double Width = 2.; ///< in units of the level; at least one voxel
+  static constexpr double Ramp = 1.;  ///< in units of the level
 
   ImageMargin() = default;
   explicit ImageMargin(const LevelImage& image)
@@ -38,19 +38,19 @@ public:
 
   struct Depth
   {
-    float Share = 0; ///< 0 where nothing fades, 1 from the end of the ramp on.
-    Vector Slope;    ///< Of Share, per unit of length.
+    float Fraction = 0; ///< 0 up to Width, 1 from the end of the ramp on
+    Vector Slope;       ///< gradient of Fraction
   };
 
   Depth DepthAt(const Vector& position) const
   {
     Depth depth;
-    const float place[3] = { position.X, position.Y, position.Z };
+    const float coordinate[3] = { position.X, position.Y, position.Z };
     float furthest = 0;
     for (int k = 0; k < 3; ++k)
     {
-      const bool isLow = place[k] < this->Low[k];
-      const float out = isLow ? this->Low[k] - place[k] : place[k] - this->High[k];
+      const bool isLow = coordinate[k] < this->Low[k];
+      const float out = isLow ? this->Low[k] - coordinate[k] : coordinate[k] - this->High[k];
       if (out > furthest)
       {
         furthest = out;
@@ -58,8 +58,8 @@ public:
         depth.Slope = Vector(k == 0 ? slope : 0.f, k == 1 ? slope : 0.f, k == 2 ? slope : 0.f);
       }
     }
-    depth.Share = std::min(furthest / this->RampLength, 1.f);
-    if (depth.Share >= 1.f)
+    depth.Fraction = std::min(furthest / this->RampLength, 1.f);
+    if (depth.Fraction >= 1.f)
     {
       depth.Slope = Vector();
     }
@@ -67,8 +67,8 @@ public:
   }
 
   /**
-   * A way from one place to another, cut short along each axis so that it ends no further out than
-   * the end of the ramp, or than where it began if that is beyond (as a start may be).
+   * Return the end of a displacement, clamped along each axis to the end of the ramp, or to its
+   * start if that is further out.
    */
   Vector Confined(const Vector& from, const Vector& to) const
   {
@@ -80,7 +80,7 @@ public:
     return Vector(within(from.X, to.X, 0), within(from.Y, to.Y, 1), within(from.Z, to.Z, 2));
   }
 
-  /** Whether a way is as Confined would leave it. */
+  /** Return whether Confined() would not change the displacement. */
   bool Allows(const Vector& from, const Vector& to) const
   {
     const Vector end = this->Confined(from, to);

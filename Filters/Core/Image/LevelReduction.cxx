@@ -15,17 +15,17 @@ namespace volumic
 {
 namespace
 {
-/** Input bytes that a tile of rows should touch per output slice: they stay in a core's cache. */
+/** Input bytes of a tile of rows per output slice, which fit in the cache of a core. */
 constexpr std::int64_t TileBytes = 768 * 1024;
-/** Input voxels between two calls of the progress: about a millisecond of work. */
+/** Input voxels between two calls of the progress callback: about a millisecond. */
 constexpr std::int64_t VoxelsPerBatch = 4 * 1024 * 1024;
-/** Rows of a tile, at least: its rows at the border are combined along z for its neighbour too. */
+/** Minimum number of rows of a tile. Neighbouring tiles combine their common rows twice. */
 constexpr std::int64_t LeastRowsPerTile = 4 * RowsAtOnce;
-/** Slices of a tile under which a chunk is not worth a thread. */
+/** Minimum number of slices per thread. */
 constexpr std::size_t TileGrain = 4;
-/** Voxels that one thread looks through at a time for values that are not finite. */
+/** Voxels per span of the search for values that are not finite. */
 constexpr std::int64_t ScanSpan = 64 * 1024;
-/** Spans of them under which a chunk is not worth a thread. */
+/** Minimum number of spans per thread. */
 constexpr std::size_t ScanGrain = 8;
 
 AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output, int axis)
@@ -36,11 +36,11 @@ AxisOperator OperatorOf(const LevelGeometry& input, const LevelGeometry& output,
   return AxisOperator(input.Size[axis], output.Size[axis], offset);
 }
 
-/** An axis operator with its weights in the type of the computation. */
+/** AxisOperator with weights of type Real. */
 template <typename Real>
 struct Axis
 {
-  std::vector<std::int64_t> First; ///< input voxel, by the output voxel
+  std::vector<std::int64_t> First; ///< first input voxel of each output voxel
   std::vector<Real> Weights;
   int Taps;
 
@@ -72,9 +72,9 @@ public:
 
   Reduction(const T* input, const LevelGeometry& inputGeometry, Real* output,
     const LevelGeometry& outputGeometry)
-    : Input(input), Output(output), InputSize(inputGeometry.Size),
-      OutputSize(outputGeometry.Size), X(inputGeometry, outputGeometry, 0),
-      Y(inputGeometry, outputGeometry, 1), Z(inputGeometry, outputGeometry, 2),
+    : Input(input), Output(output), InputSize(inputGeometry.Size), OutputSize(outputGeometry.Size),
+      X(inputGeometry, outputGeometry, 0), Y(inputGeometry, outputGeometry, 1),
+      Z(inputGeometry, outputGeometry, 2),
       Stride((InputSize[0] + RowsAtOnce - 1) / RowsAtOnce * RowsAtOnce)
   {
     const std::int64_t rowBytes = InputSize[0] * Z.Taps * static_cast<std::int64_t>(sizeof(T));
@@ -84,7 +84,7 @@ public:
     this->Tiles = (OutputSize[1] + this->RowsPerTile - 1) / this->RowsPerTile;
   }
 
-  bool Run(Executor& executor, const LevelProgress& progress) const
+  bool Run(Executor& executor, const ProgressCallback& progress) const
   {
     // Slices of one tile follow each other, so that a thread finds their input in its cache.
     const std::int64_t tasks = this->Tiles * this->OutputSize[2];
@@ -106,16 +106,16 @@ public:
   }
 
 private:
-  /** Rows in work, of one thread. */
-  struct WorkSpace
+  /** Buffers of one thread. */
+  struct RowBuffers
   {
-    // Enough for the rows of one band along y: the ring's size is a power of two over six.
+    // Power of two, at least the six rows of one band along y.
     static constexpr std::int64_t RingRows = 8;
     std::vector<Real> Ring;    ///< rows combined along z, by their y modulo RingRows
     std::vector<Real> Rows;    ///< rows combined along z and y
-    std::vector<Real> Columns; ///< work space of ReduceRows
+    std::vector<Real> Columns; ///< buffer of ReduceRows()
 
-    explicit WorkSpace(std::int64_t stride)
+    explicit RowBuffers(std::int64_t stride)
       : Ring(RingRows * stride), Rows(RowsAtOnce * stride), Columns(RowsAtOnce * stride)
     {
     }
@@ -123,7 +123,7 @@ private:
 
   void RunTasks(std::int64_t begin, std::int64_t end) const
   {
-    WorkSpace work(this->Stride);
+    RowBuffers work(this->Stride);
     for (std::int64_t task = begin; task < end; ++task)
     {
       const std::int64_t tile = task / this->OutputSize[2];
@@ -133,10 +133,10 @@ private:
     }
   }
 
-  /** Output rows [begin, end) of one output slice. */
-  void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, WorkSpace& work) const
+  /** Compute rows [begin, end) of an output slice. */
+  void MakeRows(std::int64_t slice, std::int64_t begin, std::int64_t end, RowBuffers& work) const
   {
-    std::int64_t made = this->Y.First[begin]; // rows of the ring before this one are done
+    std::int64_t made = this->Y.First[begin]; // The ring has the rows before this one.
     for (std::int64_t first = begin; first < end; first += RowsAtOnce)
     {
       const auto rows = static_cast<int>(std::min<std::int64_t>(RowsAtOnce, end - first));
@@ -157,9 +157,9 @@ private:
     }
   }
 
-  Real* RingRow(WorkSpace& work, std::int64_t y) const
+  Real* RingRow(RowBuffers& work, std::int64_t y) const
   {
-    return work.Ring.data() + (y % WorkSpace::RingRows) * this->Stride;
+    return work.Ring.data() + (y % RowBuffers::RingRows) * this->Stride;
   }
 
   void CombineAlongZ(std::int64_t slice, std::int64_t y, Real* out) const
@@ -173,14 +173,15 @@ private:
     CombineRows(rows.data(), this->Z.Weight(slice), this->Z.Taps, out, this->InputSize[0]);
   }
 
-  void CombineAlongY(std::int64_t y, WorkSpace& work, Real* out) const
+  void CombineAlongY(std::int64_t y, RowBuffers& work, Real* out) const
   {
     std::array<const Real*, AxisOperator::MaximumNumberOfTaps> rows{};
     for (int t = 0; t < this->Y.Taps; ++t)
     {
       rows[t] = this->RingRow(work, this->Y.First[y] + t);
     }
-    // The whole stride, so that the loop has no remainder; ReduceRows does not look past the row.
+    // The whole stride, so that the loop has no remainder. ReduceRows() ignores what is behind the
+    // row.
     CombineRows(rows.data(), this->Y.Weight(y), this->Y.Taps, out, this->Stride);
   }
 
@@ -200,7 +201,7 @@ private:
 template <typename T>
 bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
   typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
-  const LevelProgress& progress)
+  const ProgressCallback& progress)
 {
   return Reduction<T>(input, inputGeometry, output, outputGeometry).Run(executor, progress);
 }
@@ -213,8 +214,7 @@ NotFiniteVoxels FindNotFiniteVoxels([[maybe_unused]] const T* values,
   if constexpr (std::is_floating_point_v<T>)
   {
     std::vector<std::int64_t> counts((n + ScanSpan - 1) / ScanSpan);
-    const auto sizeOf = [n](std::int64_t span)
-    { return std::min(ScanSpan, n - span * ScanSpan); };
+    const auto sizeOf = [n](std::int64_t span) { return std::min(ScanSpan, n - span * ScanSpan); };
     executor.For(counts.size(), ScanGrain,
       [&](std::size_t begin, std::size_t end)
       {
@@ -239,8 +239,8 @@ NotFiniteVoxels FindNotFiniteVoxels([[maybe_unused]] const T* values,
 }
 
 #define VOLUMIC_INSTANTIATE(T)                                                   \
-  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*,  \
-    const LevelGeometry&, Executor&, const LevelProgress&);                       \
+  template bool ReduceLevel<T>(const T*, const LevelGeometry&, RealOf<T>::Type*, \
+    const LevelGeometry&, Executor&, const ProgressCallback&);                   \
   template NotFiniteVoxels FindNotFiniteVoxels<T>(const T*, std::int64_t, Executor&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE

@@ -4,47 +4,39 @@
 #define volumicLevelReduction_h
 
 #include "Core/Common/Executor.h"
+#include "Core/Common/Monitor.h"
 #include "Core/Image/PyramidGeometry.h"
 #include "Core/Image/RowKernels.h"
 
 #include <cstdint>
-#include <functional>
 
 namespace volumic
 {
 /**
- * Told the share of a level that is done, in [0, 1]; false asks to stop. Called on the thread that
- * called the computation, never from within the executor.
- */
-using LevelProgress = std::function<bool(double share)>;
-
-/**
- * Level h+1 from level h: eq. 5, one banded operator per axis (AxisOperator).
+ * Compute level h+1 from level h (eq. 5), with one banded operator per axis (AxisOperator).
  *
- * The axes are taken in the order z, y, x, but not one after the other over the whole level: each
- * thread makes a few rows at a time and needs work space for about twenty of them. Voxels are
- * x fastest. An output voxel is always made by the same operations in the same order, so that the
- * result does not depend on the executor.
+ * Each thread computes a few output rows at a time, in the order z, y, x, with buffers for about
+ * twenty rows. Voxels are x fastest. The result does not depend on the executor.
  *
  * @param input          voxels of level h
- * @param inputGeometry  of it; the Unit of the level, U_h, is the offset of the kernel
- * @param output         room for the voxels of level h+1
- * @param outputGeometry of that
- * @return false if `progress` asked to stop before the end; the output is unfinished then.
+ * @param inputGeometry  of level h; its Unit U_h is the distance between kernel positions
+ * @param output         memory for the voxels of level h+1
+ * @param outputGeometry of level h+1
+ * @return false if `progress` cancelled the computation; the output is incomplete then
  */
 template <typename T>
 bool ReduceLevel(const T* input, const LevelGeometry& inputGeometry,
   typename RealOf<T>::Type* output, const LevelGeometry& outputGeometry, Executor& executor,
-  const LevelProgress& progress);
+  const ProgressCallback& progress);
 
-/** Voxels that are NaN or infinite. */
+/** NaN and infinite voxels. */
 struct NotFiniteVoxels
 {
   std::int64_t Count = 0;
   std::int64_t First = -1; ///< index of the first one, or -1
 };
 
-/** Counts voxels that are not finite; costs nothing for integer types. */
+/** Count NaN and infinite voxels. */
 template <typename T>
 NotFiniteVoxels FindNotFiniteVoxels(const T* values, std::int64_t n, Executor& executor);
 }

@@ -12,14 +12,14 @@ namespace volumic
 {
 namespace
 {
-/** Where phi ends, in radii. */
+/** Support of phi, in radii. */
 constexpr double Reach = 1.5;
 /** k: log(2) / phi(1), phi(1) = (5/9)^2. */
 constexpr float Sharpness = 2.2458f;
-/** C, in the typical slope over a unit of the level. */
-constexpr float ContrastShare = 0.25f;
+/** C, relative to the typical slope times the unit of the level. */
+constexpr float ContrastFraction = 0.25f;
 
-/** Indices of the voxels within a distance along an axis, cut to the image. */
+/** Return the first and last voxel within a distance along an axis, clamped to the image. */
 std::pair<int, int> Range(const LevelImage& image, int axis, double centre, double distance)
 {
   const double step = image.Step[axis];
@@ -30,8 +30,7 @@ std::pair<int, int> Range(const LevelImage& image, int axis, double centre, doub
 }
 
 PointAttraction::PointAttraction(std::vector<AttractingPoint> points, double weight)
-  : Points(std::move(points))
-  , Weight(weight)
+  : Points(std::move(points)), Weight(weight)
 {
 }
 
@@ -44,20 +43,20 @@ void PointAttraction::AddPoint(const LevelImage& image, const AttractingPoint& p
   std::vector<float>& evidence) const
 {
   const double reach = ReachOf(image, point);
-  const double dz = slice * image.Step[2] - point.Place[2];
-  const auto rows = Range(image, 1, point.Place[1], reach);
-  const auto columns = Range(image, 0, point.Place[0], reach);
+  const double dz = slice * image.Step[2] - point.Position[2];
+  const auto rows = Range(image, 1, point.Position[1], reach);
+  const auto columns = Range(image, 0, point.Position[0], reach);
   for (int j = rows.first; j <= rows.second; ++j)
   {
-    const double dy = j * image.Step[1] - point.Place[1];
+    const double dy = j * image.Step[1] - point.Position[1];
     float* row = evidence.data() + static_cast<std::size_t>(j) * image.Size[0];
     for (int i = columns.first; i <= columns.second; ++i)
     {
-      const double dx = i * image.Step[0] - point.Place[0];
-      const double rest = 1. - (dx * dx + dy * dy + dz * dz) / (reach * reach);
-      if (rest > 0.)
+      const double dx = i * image.Step[0] - point.Position[0];
+      const double falloff = 1. - (dx * dx + dy * dy + dz * dz) / (reach * reach);
+      if (falloff > 0.)
       {
-        row[i] += static_cast<float>(this->Weight * point.Weight * rest * rest);
+        row[i] += static_cast<float>(this->Weight * point.Weight * falloff * falloff);
       }
     }
   }
@@ -70,14 +69,14 @@ std::vector<float> PointAttraction::Bend(
   std::vector<float> bent(slice * image.Size[2]);
   image.Values.Copy(0, static_cast<std::ptrdiff_t>(bent.size()), bent.data());
   const Field field(image, options, executor);
-  const float contrast = ContrastShare * field.TypicalSlope() * static_cast<float>(image.Unit);
+  const float contrast = ContrastFraction * field.TypicalSlope() * static_cast<float>(image.Unit);
   const float sign = options.ObjectIsBright ? 1.f : -1.f;
   const float iso = static_cast<float>(options.IsoValue - image.Base);
   std::vector<std::vector<int>> pointsOf(static_cast<std::size_t>(image.Size[2]));
   for (std::size_t p = 0; p < this->Points.size(); ++p)
   {
     const AttractingPoint& point = this->Points[p];
-    const auto slices = Range(image, 2, point.Place[2], ReachOf(image, point));
+    const auto slices = Range(image, 2, point.Position[2], ReachOf(image, point));
     for (int k = slices.first; k <= slices.second; ++k)
     {
       pointsOf[k].push_back(static_cast<int>(p));
@@ -104,8 +103,8 @@ std::vector<float> PointAttraction::Bend(
           if (evidence[i] > 0.f)
           {
             const float value = sign * (values[i] - iso);
-            const float share = 1.f - std::exp(-Sharpness * evidence[i]);
-            values[i] += sign * share * (2.f * std::max(-value, 0.f) + contrast);
+            const float e = 1.f - std::exp(-Sharpness * evidence[i]);
+            values[i] += sign * e * (2.f * std::max(-value, 0.f) + contrast);
           }
         }
       }

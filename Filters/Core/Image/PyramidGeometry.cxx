@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/PyramidGeometry.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +13,11 @@ namespace
 {
 void CheckReductionFactor(double factor)
 {
-  // Written so that NaN is refused too.
+  // The negation rejects NaN, too.
   if (!(factor > 1.0 && factor < 2.0))
   {
-    Refuse("Reduction Factor is ", factor, "; it must lie between 1 and 2, both excluded",
-      " (sqrt(3) suits the deformable surface).");
+    ThrowInvalidArgument("Reduction Factor is ", factor,
+      "; it must lie between 1 and 2, both excluded", " (sqrt(3) suits the deformable surface).");
   }
 }
 
@@ -27,11 +27,12 @@ void CheckImage(const LevelSize& size, const std::array<double, 3>& spacing)
   {
     if (size[axis] < 1)
     {
-      Refuse("the image is empty: it has ", size[0], " x ", size[1], " x ", size[2], " voxels.");
+      ThrowInvalidArgument(
+        "the image is empty: it has ", size[0], " x ", size[1], " x ", size[2], " voxels.");
     }
     if (size[axis] > 1 && (!std::isfinite(spacing[axis]) || spacing[axis] == 0.0))
     {
-      Refuse("the spacing along axis ", "xyz"[axis], " is ", spacing[axis],
+      ThrowInvalidArgument("the spacing along axis ", "xyz"[axis], " is ", spacing[axis],
         "; set it to the distance of two voxels.");
     }
   }
@@ -48,7 +49,7 @@ double UnitOfLevel0(const LevelSize& size, const std::array<double, 3>& spacing)
       unit = distance;
     }
   }
-  return unit > 0.0 ? unit : 1.0; // an image of one voxel has no distances at all
+  return unit > 0.0 ? unit : 1.0; // An image of one voxel has no distances.
 }
 
 bool IsSmallerThan(const LevelSize& level, const LevelSize& level0, std::int64_t minimum)
@@ -79,7 +80,7 @@ int MaximumNumberOfLevels(const LevelSize& size, double reductionFactor)
 {
   CheckReductionFactor(reductionFactor);
   int levels = 1;
-  // Every axis of two voxels or more shrinks, because T > 1.
+  // Each axis of two voxels or more shrinks, because T > 1.
   for (LevelSize level = size; level[0] > 1 || level[1] > 1 || level[2] > 1; ++levels)
   {
     level = ReducedSize(level, reductionFactor);
@@ -94,28 +95,30 @@ std::vector<LevelGeometry> PlanPyramid(
   CheckImage(size, spacing);
   if (options.NumberOfLevels < 0)
   {
-    Refuse("Number Of Levels is ", options.NumberOfLevels,
+    ThrowInvalidArgument("Number Of Levels is ", options.NumberOfLevels,
       "; use 0 for as many as Minimum Level Size allows, or 1 and more.");
   }
   if (options.NumberOfLevels > possible)
   {
-    Refuse("Number Of Levels is ", options.NumberOfLevels, ", but an image of ", size[0], " x ",
-      size[1], " x ", size[2], " voxels gives at most ", possible, " levels with Reduction Factor ",
-      options.ReductionFactor, "; ask for fewer, or use 0 for the automatic choice.");
+    ThrowInvalidArgument("Number Of Levels is ", options.NumberOfLevels, ", but an image of ",
+      size[0], " x ", size[1], " x ", size[2], " voxels gives at most ", possible,
+      " levels with Reduction Factor ", options.ReductionFactor,
+      "; ask for fewer, or use 0 for the automatic choice.");
   }
   if (options.MinimumLevelSize < 1)
   {
-    Refuse("Minimum Level Size is ", options.MinimumLevelSize, "; it must be at least 1.");
+    ThrowInvalidArgument(
+      "Minimum Level Size is ", options.MinimumLevelSize, "; it must be at least 1.");
   }
 
   const bool automatic = options.NumberOfLevels == 0;
-  const int wanted = automatic ? possible : options.NumberOfLevels;
+  const int requested = automatic ? possible : options.NumberOfLevels;
 
   std::vector<LevelGeometry> levels(1);
   levels[0].Size = size;
   levels[0].Spacing = spacing;
   levels[0].Unit = UnitOfLevel0(size, spacing);
-  while (static_cast<int>(levels.size()) < wanted)
+  while (static_cast<int>(levels.size()) < requested)
   {
     LevelGeometry next;
     next.Size = ReducedSize(levels.back().Size, options.ReductionFactor);

@@ -13,9 +13,8 @@ namespace volumic
 using LevelSize = std::array<std::int64_t, 3>;
 
 /**
- * Where the voxels of one level lie (eq. 3): voxel i along an axis is at i * Spacing from the
- * origin, which all levels share. Spacing is mu / M_h in the unit of length of the input; it has
- * the sign of the input's.
+ * Geometry of a level (eq. 3): voxel i along an axis lies at i * Spacing from the origin, which all
+ * levels share. Spacing is mu / M_h in the length unit of the input, with the sign of its spacing.
  */
 struct LevelGeometry
 {
@@ -23,37 +22,33 @@ struct LevelGeometry
   std::array<double, 3> Spacing = { 1, 1, 1 }; ///< mu/M_h, nu/N_h, pi/P_h
   double Unit = 1.0;                           ///< U_h
 
-  /** Number of voxels, 64 bits wide also where a product of three ints would overflow. */
   std::int64_t NumberOfVoxels() const { return Size[0] * Size[1] * Size[2]; }
 };
 
-/** Which levels to make of an image. */
+/** Properties of vtkImagePyramid. */
 struct PyramidOptions
 {
   double ReductionFactor = 1.7320508075688772; ///< T, in ]1, 2[; sqrt(3) suits the surface (eq. 8)
-  int NumberOfLevels = 0;                      ///< with level 0; 0 = as MinimumLevelSize allows
-  int MinimumLevelSize = 10; ///< automatic: no level after 0 has an axis of fewer voxels than this
+  int NumberOfLevels = 0;                      ///< including level 0; 0: automatic
+  int MinimumLevelSize = 10;                   ///< automatic: smallest dimension of levels above 0
 };
 
 /**
- * Sizes, spacings and units of all levels, level 0 (the input) first: eq. 4 with U_h = T^h U_0.
+ * Return sizes, spacings and units of all levels, from level 0 (the input) on: eq. 4 with
+ * U_h = T^h U_0. An axis of one voxel keeps one voxel. It has no effect on U_0 nor
+ * MinimumLevelSize, so 2D images work like volumes.
  *
- * An axis of one voxel stays one voxel at every level and counts neither for U_0, because no two
- * voxels have a distance along it, nor for MinimumLevelSize; so 2D images work like volumes.
- *
- * @throws std::invalid_argument for T outside ]1, 2[, a negative option, sizes under 1, a spacing
- *         that is zero or not finite along an axis of several voxels, and when more levels are
- *         asked for than the image can give (the message says how many it can).
+ * @throws std::invalid_argument if T is outside ]1, 2[, an option is negative, a size is below 1, a
+ *         spacing along an axis of several voxels is zero or not finite, or NumberOfLevels exceeds
+ *         MaximumNumberOfLevels()
  */
 std::vector<LevelGeometry> PlanPyramid(
   const LevelSize& size, const std::array<double, 3>& spacing, const PyramidOptions& options);
 
-/**
- * How many levels the image can give: the last is the first in which no axis can shrink further.
- */
+/** Return the number of levels until no axis can shrink further. */
 int MaximumNumberOfLevels(const LevelSize& size, double reductionFactor);
 
-/** Size of the level above one of this size: floor(M / T), at least 1. */
+/** Return the size of the next coarser level: floor(M / T), at least 1. */
 LevelSize ReducedSize(const LevelSize& size, double reductionFactor);
 }
 

@@ -5,9 +5,9 @@
 #include <cstring>
 #include <type_traits>
 
-// Compiled for the baseline and for two wider vector units; the dynamic linker picks. The clones
-// name features, not processors: `arch=` would match that very model only. Elsewhere (arm64, other
-// compilers, sanitizers, which run before the choice is made) the baseline is all there is.
+// Compiled for the baseline and for two wider vector units; the dynamic linker selects one.
+// Features are named instead of processors, because `arch=` matches one model only. Other systems
+// use the baseline: arm64, other compilers, and sanitizers, which run before the selection.
 #if defined(__x86_64__) && defined(__ELF__) && defined(__GNUC__) && !defined(__clang__) && \
   !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 #define VOLUMIC_VECTOR_CLONES __attribute__((target_clones("default", "avx2", "avx512f")))
@@ -15,7 +15,7 @@
 #define VOLUMIC_VECTOR_CLONES
 #endif
 
-// The bodies must be inlined into the clones, or they would be compiled for the baseline only.
+// Bodies must be inlined into the clones. Otherwise they are compiled for the baseline only.
 #if defined(__GNUC__)
 #define VOLUMIC_INLINE inline __attribute__((always_inline))
 #define VOLUMIC_HAS_VECTORS 1
@@ -24,7 +24,7 @@
 #define VOLUMIC_HAS_VECTORS 0
 #endif
 
-// GCC knows __builtin_shufflevector from version 12 on only.
+// GCC has __builtin_shufflevector since version 12.
 #define VOLUMIC_HAS_SHUFFLE 0
 #if VOLUMIC_HAS_VECTORS && defined(__has_builtin)
 #if __has_builtin(__builtin_shufflevector)
@@ -33,8 +33,8 @@
 #endif
 #endif
 
-// Calls function<taps>(...): loops over a number of weights that the compiler knows are unrolled.
-// A macro, as a lambda would be no part of the clone that it is in.
+// Calls function<taps>(...), so that the compiler unrolls loops over weights. It is a macro because
+// a lambda would not be part of the clone.
 #define VOLUMIC_SWITCH_TAPS(taps, function, ...) \
   switch (taps)                                  \
   {                                              \
@@ -93,7 +93,7 @@ VOLUMIC_INLINE std::int64_t CountNotFiniteOf(const T* values, std::int64_t n)
   {
     for (std::int64_t x = 0; x < n; ++x)
     {
-      // x - x is zero for finite numbers and NaN for all others; unlike isfinite it vectorises.
+      // x - x is zero for finite numbers and NaN for all others; unlike isfinite, this vectorizes.
       count += (values[x] - values[x] == T(0)) ? 0 : 1;
     }
   }
@@ -110,14 +110,14 @@ template <typename Real>
 struct VectorOf
 {
   typedef Real Type __attribute__((vector_size(RowsAtOnce * sizeof(Real))));
-  // The same without the promise that memory is aligned to the vector's size.
+  // For memory that is not aligned to the vector's size.
   typedef Real Unaligned
     __attribute__((vector_size(RowsAtOnce * sizeof(Real)), aligned(alignof(Real)), may_alias));
 };
 #endif
 
 #if VOLUMIC_HAS_SHUFFLE
-/** out[c][r] = in[r][c] for an 8 x 8 square, by three rounds of exchanging halves. */
+/** Transpose an 8 x 8 square by three rounds of exchanged halves. */
 template <typename Real>
 VOLUMIC_INLINE void TransposeSquare(
   const Real* in, std::int64_t inStride, Real* out, std::int64_t outStride)
@@ -170,7 +170,7 @@ VOLUMIC_INLINE void TransposeSquare(
 }
 #endif
 
-/** One output voxel of all rows: the lanes are the rows. */
+/** Compute one output voxel of all rows. */
 template <int Taps, typename Real>
 VOLUMIC_INLINE void ReduceColumn(const Real* columns, const Real* weights, Real* out)
 {
@@ -211,12 +211,12 @@ VOLUMIC_INLINE void ReduceRowsOfTaps(const Real* rows, std::int64_t stride,
   Real back[RowsAtOnce * RowsAtOnce];
   for (std::int64_t x = 0; x < outputSize; x += RowsAtOnce)
   {
-    const auto width = static_cast<int>(
-      outputSize - x < RowsAtOnce ? outputSize - x : std::int64_t{ RowsAtOnce });
+    const auto width =
+      static_cast<int>(outputSize - x < RowsAtOnce ? outputSize - x : std::int64_t{ RowsAtOnce });
     for (int i = 0; i < width; ++i)
     {
-      ReduceColumn<Taps>(columns + first[x + i] * RowsAtOnce, weights + (x + i) * Taps,
-        reduced + i * RowsAtOnce);
+      ReduceColumn<Taps>(
+        columns + first[x + i] * RowsAtOnce, weights + (x + i) * Taps, reduced + i * RowsAtOnce);
     }
     if (width == RowsAtOnce && numberOfRows == RowsAtOnce)
     {

@@ -6,16 +6,16 @@
 #include <cstdint>
 
 /**
- * The inner loops of the pyramid, on rows of voxels that are contiguous along x. Each is compiled
- * for several vector widths; the processor's best is chosen when the library is loaded. None of
- * them contracts a product and a sum, so that all of them give the same bits.
+ * Inner loops of the pyramid on rows of voxels, contiguous along x. Each loop is compiled for
+ * several vector widths; the widest that the processor supports is selected when the library is
+ * loaded. No product and sum are contracted, so all variants are bit-identical.
  */
 namespace volumic
 {
-/** Rows that are worked on together along x; the lanes of the vectors are these rows. */
+/** Number of rows that are processed together along x, one per vector lane. */
 constexpr int RowsAtOnce = 8;
 
-/** Doubles stay doubles, every other scalar type becomes float. */
+/** Computation type: double for double, float for all other types. */
 template <typename T>
 struct RealOf
 {
@@ -27,7 +27,7 @@ struct RealOf<double>
   using Type = double;
 };
 
-/** X-macro over the native scalar types of voxels. */
+/** X-macro over the scalar types of voxels. */
 #define VOLUMIC_FOR_EACH_SCALAR(Macro)                                                   \
   Macro(char) Macro(signed char) Macro(unsigned char) Macro(short) Macro(unsigned short) \
     Macro(int) Macro(unsigned int) Macro(long) Macro(unsigned long) Macro(long long)     \
@@ -37,19 +37,19 @@ struct RealOf<double>
   /** out[x] = sum over t of weights[t] * rows[t][x], for x in [0, n) and taps in [1, 6]. */ \
   void CombineRows(const T* const* rows, const RealOf<T>::Type* weights, int taps,           \
     RealOf<T>::Type* out, std::int64_t n);                                                   \
-  /** How many of the n values are NaN or infinite. */                                       \
+  /** Return the number of NaN and infinite values. */                                       \
   std::int64_t CountNotFinite(const T* values, std::int64_t n);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_DECLARE_ROW_KERNELS)
 #undef VOLUMIC_DECLARE_ROW_KERNELS
 
 /**
- * The operator along x, for RowsAtOnce rows at once.
- * @param rows      RowsAtOnce rows of `stride` values, of which the first inputSize count
+ * Apply the operator along x to RowsAtOnce rows.
+ * @param rows      RowsAtOnce rows of `stride` values; the first inputSize values are used
  * @param stride    a multiple of RowsAtOnce, at least inputSize
  * @param first     first input voxel of each output voxel
  * @param weights   `taps` weights of each output voxel
- * @param columns   work space of RowsAtOnce * stride values
- * @param out       where the output rows go; fewer than RowsAtOnce may be wanted
+ * @param columns   buffer of RowsAtOnce * stride values
+ * @param out       output rows, numberOfRows <= RowsAtOnce
  */
 void ReduceRows(const float* rows, std::int64_t stride, const std::int64_t* first,
   const float* weights, int taps, std::int64_t outputSize, float* columns, float* const* out,

@@ -13,30 +13,30 @@
 
 namespace volumic
 {
-/** The least that a part of an object is to be. */
+/** Minimum size of a connected part of an object. */
 struct PartSize
 {
   int Voxels;
-  int Thickness; ///< Side of the cubes of voxels that it consists of: 1 or 2.
+  int Thickness; ///< edge length of the cubes of voxels that form it: 1 or 2
 };
 /**
- * What holds a surface at its level. Found by experiment: a surface that shrinks from outside
- * vanishes in about half of the balls of 12 to 31 such voxels, and in none of 36 and more; rods and
- * plates that consist of such cubes hold it always.
+ * Smallest part that a surface can represent at a level. By experiment: a surface that shrinks from
+ * outside vanishes in about half of the balls of 12 to 31 such voxels, and in none of 36 or more.
+ * Rods and plates of such cubes always keep a surface.
  */
-constexpr PartSize PartThatHolds = { 36, 2 };
+constexpr PartSize SmallestPart = { 36, 2 };
 
 /**
- * Looks for parts of an object that consist of cubes of its voxels, joined by faces: each part in
- * turn, as far as needed, so that the work space is that of the few voxels wanted.
+ * Search for a part of an object that consists of cubes of voxels, connected by faces. Each part is
+ * followed up to the requested number of voxels only.
  */
 template <typename IsObject>
 class ThickParts
 {
 public:
   ThickParts(const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
-    : Object(isObject), Size(size), Numbers(size), Least(least.Voxels), More(least.Thickness - 1)
-    , NumberOfCorners(least.Thickness == 1 ? 1 : 8)
+    : Object(isObject), Size(size), Numbers(size), Least(least.Voxels), More(least.Thickness - 1),
+      NumberOfCorners(least.Thickness == 1 ? 1 : 8)
   {
     for (int c = 0; c < this->NumberOfCorners; ++c)
     {
@@ -44,7 +44,7 @@ public:
     }
   }
 
-  /** Whether there is one that is large enough. */
+  /** Return whether a part is large enough. */
   bool HaveOne()
   {
     for (int k = 0; k + this->More < this->Size[2]; ++k)
@@ -71,14 +71,14 @@ private:
       [&](std::int64_t corner) { return this->Object(first + corner); });
   }
 
-  /** Whether the voxel lies in a cube. */
-  bool IsThick(const std::array<int, 3>& place) const
+  /** Return whether a voxel lies in a cube. */
+  bool IsThick(const std::array<int, 3>& voxel) const
   {
     for (int c = 0; c < this->NumberOfCorners; ++c)
     {
-      const int i = place[0] - (c & 1);
-      const int j = place[1] - (c >> 1 & 1);
-      const int k = place[2] - (c >> 2);
+      const int i = voxel[0] - (c & 1);
+      const int j = voxel[1] - (c >> 1 & 1);
+      const int k = voxel[2] - (c >> 2);
       if (i >= 0 && j >= 0 && k >= 0 && i + this->More < this->Size[0] &&
         j + this->More < this->Size[1] && k + this->More < this->Size[2] &&
         this->IsCube(this->Numbers.Of(i, j, k)))
@@ -90,8 +90,8 @@ private:
   }
 
   /**
-   * Whether the part of a voxel is large enough. Only asked of what may be the first voxel of its part:
-   * where there is one before it, the part has been looked at, and has fewer.
+   * Return whether the part of a voxel is large enough, if the voxel is the first of its part.
+   * Otherwise the part has been tested before.
    */
   bool StartsPart(std::int64_t first)
   {
@@ -102,12 +102,12 @@ private:
       {
         return true;
       }
-      const std::array<int, 3> place = this->Numbers.PlaceOf(this->Part[n]);
+      const std::array<int, 3> voxel = this->Numbers.IjkOf(this->Part[n]);
       for (int axis = 0; axis < 3; ++axis)
       {
         for (int side : { -1, 1 })
         {
-          std::array<int, 3> next = place;
+          std::array<int, 3> next = voxel;
           next[axis] += side;
           if (next[axis] < 0 || next[axis] >= this->Size[axis] || !this->IsThick(next))
           {
@@ -131,20 +131,19 @@ private:
   const IsObject& Object;
   std::array<int, 3> Size;
   VoxelNumbers Numbers;
-  int Least; ///< Voxels.
-  int More;  ///< Voxels of a cube along an axis beyond the first.
+  int Least; ///< number of voxels
+  int More;  ///< edge length of a cube minus 1
   int NumberOfCorners;
   std::array<std::int64_t, 8> Corners;
   std::vector<std::int64_t> Part;
 };
 
 /**
- * Whether the voxels for which isObject(number) holds (VoxelNumbers.h) have a part of at least that
- * size: of cubes of them, joined by faces. What is thinner doesn't count.
+ * Return whether the voxels with isObject(number) (VoxelNumbers.h) have a part of at least this
+ * size. Thinner parts do not count.
  */
 template <typename IsObject>
-bool HasThickPart(
-  const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
+bool HasThickPart(const IsObject& isObject, const std::array<int, 3>& size, const PartSize& least)
 {
   return ThickParts<IsObject>(isObject, size, least).HaveOne();
 }

@@ -12,14 +12,14 @@ namespace volumic
 {
 namespace
 {
-/** Share of the weight that voxels with a value must have for the output voxel to have one. */
+/** Minimum weight of the valid voxels for a valid output voxel. */
 constexpr double LeastWeight = 0.5;
 }
 
 template <typename T>
 bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
-  const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress)
+  const LevelGeometry& outputGeometry, Executor& executor, const ProgressCallback& progress)
 {
   using Real = typename RealOf<T>::Type;
   LargeVector<T> values(valid.size());
@@ -32,11 +32,12 @@ bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
     return false;
   }
   values = LargeVector<T>();
-  // The weights are as precise as the voxels: as bytes they would give single precision.
+  // Weights have the precision of the voxels. As bytes they would have single precision.
   using Mark = std::conditional_t<std::is_same_v<Real, double>, double, std::uint8_t>;
   const LargeVector<Mark> marks(valid.begin(), valid.end());
   LargeVector<Real> weights(static_cast<std::size_t>(outputGeometry.NumberOfVoxels()));
-  if (!ReduceLevel(marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
+  if (!ReduceLevel(
+        marks.data(), inputGeometry, weights.data(), outputGeometry, executor, secondHalf))
   {
     return false;
   }
@@ -56,10 +57,10 @@ LargeVector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n)
   return marks;
 }
 
-#define VOLUMIC_INSTANTIATE(T)                                                                  \
-  template bool ReduceValidVoxels<T>(const T*, const LargeVector<std::uint8_t>&,               \
-    const LevelGeometry&, RealOf<T>::Type*, const LevelGeometry&, Executor&,                   \
-    const LevelProgress&);
+#define VOLUMIC_INSTANTIATE(T)                                                   \
+  template bool ReduceValidVoxels<T>(const T*, const LargeVector<std::uint8_t>&, \
+    const LevelGeometry&, RealOf<T>::Type*, const LevelGeometry&, Executor&,     \
+    const ProgressCallback&);
 VOLUMIC_FOR_EACH_SCALAR(VOLUMIC_INSTANTIATE)
 #undef VOLUMIC_INSTANTIATE
 template LargeVector<std::uint8_t> MarkNumbers<float>(const float*, std::int64_t);

@@ -11,17 +11,17 @@
 namespace volumic
 {
 /**
- * ReduceLevel where not all voxels have a value: an output voxel is the mean of those that do, by
- * the same weights, and NaN where they have less than half of the weight.
+ * ReduceLevel() for images with invalid voxels. An output voxel is the weighted mean of the valid
+ * voxels, or NaN if their weight is below one half.
  *
- * @param valid 1 for voxels with a value, 0 for others, whose value does not matter
+ * @param valid 1 for valid voxels, 0 for others, whose value has no effect
  */
 template <typename T>
 bool ReduceValidVoxels(const T* input, const LargeVector<std::uint8_t>& valid,
   const LevelGeometry& inputGeometry, typename RealOf<T>::Type* output,
-  const LevelGeometry& outputGeometry, Executor& executor, const LevelProgress& progress);
+  const LevelGeometry& outputGeometry, Executor& executor, const ProgressCallback& progress);
 
-/** 1 for numbers, 0 for NaN. */
+/** Return 1 for numbers, 0 for NaN. */
 template <typename Real>
 LargeVector<std::uint8_t> MarkNumbers(const Real* values, std::int64_t n);
 }

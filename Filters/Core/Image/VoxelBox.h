@@ -11,13 +11,13 @@
 
 namespace volumic
 {
-/** Voxels [First, End) of an image along each axis; none where an axis has none. */
+/** Box of the voxels [First, End) along each axis; empty if an axis is. */
 struct VoxelBox
 {
   std::array<int, 3> First = { 0, 0, 0 };
   std::array<int, 3> End = { 0, 0, 0 };
 
-  /** All voxels of an image of this size. */
+  /** Return the box of all voxels of an image. */
   static VoxelBox Of(const std::array<int, 3>& size) { return { { 0, 0, 0 }, size }; }
 
   int Length(int axis) const { return this->End[axis] - this->First[axis]; }
@@ -43,14 +43,14 @@ struct VoxelBox
     return isInside;
   }
 
-  /** Where in the box a coordinate is, if the box follows itself. */
+  /** Return an index wrapped into the box, for periodic images. */
   int Wrapped(int at, int axis) const
   {
     const int after = (at - this->First[axis]) % this->Length(axis);
     return this->First[axis] + (after < 0 ? after + this->Length(axis) : after);
   }
 
-  /** The number of a voxel of the image among those of the box, x fastest. */
+  /** Return the linear index of a voxel in the box, x fastest. */
   std::int64_t NumberOf(int i, int j, int k) const
   {
     return i - this->First[0] +
@@ -58,7 +58,7 @@ struct VoxelBox
       (j - this->First[1] + static_cast<std::int64_t>(this->Length(1)) * (k - this->First[2]));
   }
 
-  /** What both have. */
+  /** Return the intersection. */
   VoxelBox CommonWith(const VoxelBox& other) const
   {
     VoxelBox common;
@@ -70,7 +70,7 @@ struct VoxelBox
     return common.IsEmpty() ? VoxelBox() : common;
   }
 
-  /** The smallest box about both. */
+  /** Return the bounding box of both. */
   VoxelBox With(const VoxelBox& other) const
   {
     if (this->IsEmpty() || other.IsEmpty())
@@ -86,7 +86,7 @@ struct VoxelBox
     return both;
   }
 
-  /** What the other one has not, in boxes apart from each other: at most two along each axis. */
+  /** Return the difference to another box, as at most six disjoint boxes. */
   std::vector<VoxelBox> Without(const VoxelBox& other) const
   {
     const VoxelBox common = this->CommonWith(other);
@@ -123,7 +123,7 @@ struct VoxelBox
     return grown;
   }
 
-  /** Boxes of about the same size that together are this one, none of more voxels along an axis. */
+  /** Divide the box into boxes of similar size with at most `most` voxels along each axis. */
   std::vector<VoxelBox> Parts(int most) const
   {
     std::vector<VoxelBox> parts = { *this };
@@ -168,8 +168,7 @@ struct VoxelBox
   }
 };
 
-/** Calls visit(first, count) for each row along x of `part`: places in arrays of the voxels of
- * `box`, which contains it. */
+/** Call visit(first, count) for each row along x of `part`: linear indices in `box` around it. */
 template <typename Visitor>
 void ForRowsOf(const VoxelBox& part, const VoxelBox& box, Visitor&& visit)
 {

@@ -9,8 +9,7 @@
 namespace volumic
 {
 /**
- * The numbers of the voxels of an image (linear indices), x fastest, from 0. They are 64 bits wide:
- * an image of 1300 x 1300 x 1300 voxels has more than an int can count.
+ * Linear indices of the voxels of an image, x fastest. 64 bits: 1300^3 voxels exceed an int.
  */
 class VoxelNumbers
 {
@@ -22,7 +21,7 @@ public:
 
   constexpr std::int64_t Count() const { return this->Strides[2] * this->Size[2]; }
 
-  /** What the number grows by from a voxel to the next along the axis. */
+  /** Return the increment from a voxel to the next along an axis. */
   constexpr std::int64_t Stride(int axis) const { return this->Strides[axis]; }
 
   constexpr std::int64_t Of(int i, int j, int k) const
@@ -30,7 +29,7 @@ public:
     return i + j * this->Strides[1] + k * this->Strides[2];
   }
 
-  constexpr std::array<int, 3> PlaceOf(std::int64_t number) const
+  constexpr std::array<int, 3> IjkOf(std::int64_t number) const
   {
     const std::int64_t inSlice = number % this->Strides[2];
     return { static_cast<int>(inSlice % this->Strides[1]),

@@ -18,14 +18,14 @@
 
 namespace volumic
 {
-/** Four voxels of each of four rows: lane r of Column[c] is the value of the c-th of row r. */
+/** Four voxels of four rows: lane r of Column[c] is voxel c of row r. */
 struct VoxelRows
 {
   Lanes Column[4];
 };
 
 #if defined(__SSE2__)
-/** Integers of at most 16 bits: four of each row, as 16 bits; columns 0 and 1, and 2 and 3. */
+/** Four voxels of four rows as 16-bit integers: columns 0 and 1, and 2 and 3. */
 struct RowsOfIntegers
 {
   __m128i Pair[2];
@@ -42,8 +42,8 @@ RowsOfIntegers ReadIntegers(const T* a, const T* b, const T* c, const T* d)
       std::memcpy(&four, row, sizeof(four));
       return _mm_cvtsi32_si128(four);
     };
-    const __m128i rows = _mm_unpacklo_epi8(_mm_unpacklo_epi8(load(a), load(c)),
-      _mm_unpacklo_epi8(load(b), load(d)));
+    const __m128i rows =
+      _mm_unpacklo_epi8(_mm_unpacklo_epi8(load(a), load(c)), _mm_unpacklo_epi8(load(b), load(d)));
     if constexpr (std::is_signed_v<T>)
     {
       return { { _mm_srai_epi16(_mm_unpacklo_epi8(rows, rows), 8),
@@ -62,7 +62,7 @@ RowsOfIntegers ReadIntegers(const T* a, const T* b, const T* c, const T* d)
   }
 }
 
-/** One column of 32 bits. */
+/** Return a column as 32-bit integers. */
 template <typename T>
 __m128i ColumnOf(const RowsOfIntegers& rows, int column)
 {
@@ -78,14 +78,14 @@ __m128i ColumnOf(const RowsOfIntegers& rows, int column)
 }
 #endif
 
-/** Reads the four voxels from each of the given ones on. */
+/** Read four voxels from each of the given positions on. */
 template <typename Voxels>
 VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
 {
   VoxelRows rows;
   using T = typename Voxels::Stored;
-  const T* from[4] = { voxels.Voxels + first[0], voxels.Voxels + first[1],
-    voxels.Voxels + first[2], voxels.Voxels + first[3] };
+  const T* from[4] = { voxels.Voxels + first[0], voxels.Voxels + first[1], voxels.Voxels + first[2],
+    voxels.Voxels + first[3] };
   if constexpr (std::is_same_v<Voxels, PlainVoxels>)
   {
     const Vector3<Lanes> three = Gather(from[0], from[1], from[2], from[3], rows.Column[3]);
@@ -95,7 +95,7 @@ VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
     return rows;
   }
 #if defined(__SSE2__)
-  else if constexpr (std::is_same_v<Voxels, NarrowVoxels<T>>)
+  else if constexpr (std::is_same_v<Voxels, SmallIntegerVoxels<T>>)
   {
     const RowsOfIntegers integers = ReadIntegers(from[0], from[1], from[2], from[3]);
     const Lanes base = voxels.Base;
@@ -113,9 +113,8 @@ VoxelRows ReadRows(const Voxels& voxels, const std::ptrdiff_t (&first)[4])
     {
       const __m128i column = ColumnOf<T>(integers, c);
       const __m128i last = _mm_unpackhi_epi64(column, column);
-      rows.Column[c] =
-        Lanes(_mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(column), base)),
-          _mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(last), base))));
+      rows.Column[c] = Lanes(_mm_movelh_ps(_mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(column), base)),
+        _mm_cvtpd_ps(_mm_sub_pd(_mm_cvtepi32_pd(last), base))));
     }
     return rows;
   }

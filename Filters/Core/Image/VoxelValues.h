@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** Voxels of float, read as they are. */
+/** Float voxels without a base. */
 struct PlainVoxels
 {
   using Stored = float;
@@ -19,9 +19,9 @@ struct PlainVoxels
   float operator[](std::ptrdiff_t i) const { return this->Voxels[i]; }
 };
 
-/** Voxels less a base: the difference in double, rounded to float. */
+/** Voxels minus a base: the difference in double, rounded to float. */
 template <typename T>
-struct WideVoxels
+struct DoubleVoxels
 {
   using Stored = T;
   const T* Voxels;
@@ -35,13 +35,12 @@ struct WideVoxels
 };
 
 /**
- * The same bits without doubles, for integers of at most 16 bits and a base that is a float: such
- * an integer is a float too, and floats are subtracted exactly and rounded once. (The way through
- * double rounds twice, but the first time either to nothing or away from what lies halfway between
- * two floats: that needs bits further down than a base of 24 bits has.)
+ * Integer voxels of at most 16 bits minus a base that is a float. Bit-identical to DoubleVoxels,
+ * but faster: both operands are floats, so the difference is rounded once. The difference in double
+ * is exact or rounded away from the midpoint of two floats, so the second rounding does not matter.
  */
 template <typename T>
-struct NarrowVoxels
+struct SmallIntegerVoxels
 {
   static_assert(std::is_integral_v<T> && sizeof(T) <= 2, "not every such number is a float");
   using Stored = T;
@@ -53,31 +52,30 @@ struct NarrowVoxels
 };
 
 /**
- * The voxels of a level in the type that their image has, so that none of them is copied: what is
- * read is float(double(voxel) - base), for all native types; or a float voxel as it is. x fastest;
- * not owned.
+ * View of the voxels of a level in the scalar type of the image, without a copy. Values are
+ * float(double(voxel) - base), or float voxels unchanged. x fastest; not owned.
  */
 class VoxelValues
 {
 public:
   VoxelValues() = default;
 
-  /** As they are; null: no voxels. Meant to convert: a level is often made of floats at hand. */
+  /** View floats; null: no voxels. Converts implicitly. */
   VoxelValues(const float* voxels) : Voxels(voxels) {}
 
-  /** Less a base. */
+  /** View voxels minus a base. */
   template <typename T>
   VoxelValues(const T* voxels, double base)
-    : Voxels(voxels), Base(base), Held(TypeOf<T>()), IsPlain(false)
-    , IsNarrow(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
+    : Voxels(voxels), Base(base), Scalar(TypeOf<T>()), IsPlain(false),
+      IsSmallInteger(sizeof(T) <= 2 && static_cast<double>(static_cast<float>(base)) == base)
   {
   }
 
   explicit operator bool() const { return this->Voxels != nullptr; }
 
   /**
-   * Calls visit(voxels) with a PlainVoxels, NarrowVoxels or WideVoxels: voxels[i] is the value of
-   * the i-th. To be called once per sample or loop, as it looks up the type.
+   * Call visit(voxels) with PlainVoxels, SmallIntegerVoxels or DoubleVoxels: voxels[i] is value i.
+   * Call it once per sample or loop, because it dispatches on the type.
    */
   template <typename Visitor>
   std::invoke_result_t<Visitor, PlainVoxels> Visit(Visitor&& visit) const
@@ -86,38 +84,38 @@ public:
     {
       return visit(PlainVoxels{ static_cast<const float*>(this->Voxels) });
     }
-    switch (this->Held)
+    switch (this->Scalar)
     {
       case Type::SignedChar:
-        return this->VisitNarrow<std::int8_t>(visit);
+        return this->VisitAsFloat<std::int8_t>(visit);
       case Type::UnsignedChar:
-        return this->VisitNarrow<std::uint8_t>(visit);
+        return this->VisitAsFloat<std::uint8_t>(visit);
       case Type::Short:
-        return this->VisitNarrow<std::int16_t>(visit);
+        return this->VisitAsFloat<std::int16_t>(visit);
       case Type::UnsignedShort:
-        return this->VisitNarrow<std::uint16_t>(visit);
+        return this->VisitAsFloat<std::uint16_t>(visit);
       case Type::Int:
-        return this->VisitWide<std::int32_t>(visit);
+        return this->VisitAsDouble<std::int32_t>(visit);
       case Type::UnsignedInt:
-        return this->VisitWide<std::uint32_t>(visit);
+        return this->VisitAsDouble<std::uint32_t>(visit);
       case Type::Long:
-        return this->VisitWide<std::int64_t>(visit);
+        return this->VisitAsDouble<std::int64_t>(visit);
       case Type::UnsignedLong:
-        return this->VisitWide<std::uint64_t>(visit);
+        return this->VisitAsDouble<std::uint64_t>(visit);
       case Type::Double:
-        return this->VisitWide<double>(visit);
+        return this->VisitAsDouble<double>(visit);
       default:
-        return this->VisitWide<float>(visit);
+        return this->VisitAsDouble<float>(visit);
     }
   }
 
-  /** One value, where few are wanted. */
+  /** Return one value. Slow in loops. */
   float operator[](std::ptrdiff_t i) const
   {
     return this->Visit([i](const auto& voxels) { return voxels[i]; });
   }
 
-  /** Values [first, first + count). */
+  /** Copy the values [first, first + count). */
   void Copy(std::ptrdiff_t first, std::ptrdiff_t count, float* values) const
   {
     this->Visit(
@@ -131,7 +129,7 @@ public:
   }
 
 private:
-  /** By size and sign: char, long and long long are what they are on the platform. */
+  /** By size and sign, which depend on the platform for char, long and long long. */
   enum class Type : std::uint8_t
   {
     SignedChar,
@@ -164,26 +162,26 @@ private:
   }
 
   template <typename T, typename Visitor>
-  std::invoke_result_t<Visitor, PlainVoxels> VisitNarrow(Visitor&& visit) const
+  std::invoke_result_t<Visitor, PlainVoxels> VisitAsFloat(Visitor&& visit) const
   {
-    if (this->IsNarrow)
+    if (this->IsSmallInteger)
     {
-      return visit(
-        NarrowVoxels<T>{ static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
+      return visit(SmallIntegerVoxels<T>{
+        static_cast<const T*>(this->Voxels), static_cast<float>(this->Base) });
     }
-    return this->VisitWide<T>(visit);
+    return this->VisitAsDouble<T>(visit);
   }
   template <typename T, typename Visitor>
-  std::invoke_result_t<Visitor, PlainVoxels> VisitWide(Visitor&& visit) const
+  std::invoke_result_t<Visitor, PlainVoxels> VisitAsDouble(Visitor&& visit) const
   {
-    return visit(WideVoxels<T>{ static_cast<const T*>(this->Voxels), this->Base });
+    return visit(DoubleVoxels<T>{ static_cast<const T*>(this->Voxels), this->Base });
   }
 
   const void* Voxels = nullptr;
   double Base = 0.;
-  Type Held = Type::Float;
+  Type Scalar = Type::Float;
   bool IsPlain = true;
-  bool IsNarrow = false; ///< See NarrowVoxels.
+  bool IsSmallInteger = false; ///< See SmallIntegerVoxels.
 };
 }
 

@@ -9,7 +9,7 @@ namespace volumic
 {
 namespace
 {
-/** Small sets that are joined. */
+/** Union-find of a few elements. */
 template <std::size_t Size>
 class Joins
 {
@@ -29,13 +29,13 @@ private:
   std::array<int, Size> Parent;
 };
 
-/** A side of a cell: its octants, round about, and the edges between each and the next one. */
+/** A side of a cell: its octants in cyclic order and the edge from each octant to the next one. */
 struct SideOfCell
 {
   std::array<int, 4> Octant;
   std::array<int, 4> Edge;
-  /** Which of the two sides of each edge it is. */
-  static constexpr std::array<int, 4> Place = { 1, 0, 1, 0 };
+  /** Index of this side among the two sides of each edge (CellPattern::SidesOf). */
+  static constexpr std::array<int, 4> SideIndex = { 1, 0, 1, 0 };
 
   SideOfCell(int axis, int high)
   {
@@ -62,8 +62,7 @@ std::array<int, 2> CellPattern::SidesOf(int edge)
   return { 2 * ((axis + 1) % 3) + (edge & 1), 2 * ((axis + 2) % 3) + (edge >> 1 & 1) };
 }
 
-CellPattern::CellPattern(
-  const std::array<Number, Octants>& labels, const std::vector<int>& rankOf)
+CellPattern::CellPattern(const std::array<Number, Octants>& labels, const std::vector<int>& rankOf)
 {
   this->FindArcs(labels, rankOf);
   this->FindCentres(labels, rankOf);
@@ -88,33 +87,33 @@ void CellPattern::FindArcs(
   {
     const SideOfCell side(number / 2, number & 1);
     const auto labelAt = [&](int n) { return labels[side.Octant[n % 4]]; };
-    const auto isAcross = [&](int n)
+    const auto isDiagonal = [&](int n)
     {
       return labelAt(n) == labelAt(n + 2) && labelAt(n) != labelAt(n + 1) &&
         labelAt(n) != labelAt(n + 3);
     };
-    int joined = -1; // of the octants of this label round about the first one
-    if (isAcross(0) && isAcross(1))
+    int joined = -1; // first of the two opposite octants that are connected
+    if (isDiagonal(0) && isDiagonal(1))
     {
       joined = rankOf[labelAt(0)] < rankOf[labelAt(1)] ? 0 : 1;
     }
-    else if (isAcross(0) || isAcross(1))
+    else if (isDiagonal(0) || isDiagonal(1))
     {
-      joined = isAcross(0) ? 0 : 1;
+      joined = isDiagonal(0) ? 0 : 1;
     }
     if (joined >= 0)
     {
       this->HasJoins = true;
       regions.Join(side.Octant[joined], side.Octant[joined + 2]);
     }
-    std::array<int, 2> first = { -1, -1 }; // edge of each strand
+    std::array<int, 2> first = { -1, -1 }; // an edge of each strand
     for (int n = 0; n < 4; ++n)
     {
       if (isCrossed[side.Edge[n]])
       {
-        // The two edges beside an octant that is not joined.
+        // A strand joins the two edges at an octant that is not connected.
         const int strand = joined < 0 ? 0 : ((n + (joined == 0 ? 0 : 3)) % 4) / 2;
-        this->StrandOf[side.Edge[n]][SideOfCell::Place[n]] = static_cast<signed char>(strand);
+        this->StrandOf[side.Edge[n]][SideOfCell::SideIndex[n]] = static_cast<signed char>(strand);
         if (first[strand] >= 0)
         {
           sheets.Join(side.Edge[n], first[strand]);
@@ -152,44 +151,45 @@ void CellPattern::FindCentres(
   }
   for (int sheet = 0; sheet < this->Sheets; ++sheet)
   {
-    unsigned about = 0; // bits of regions
+    unsigned regionBits = 0; // regions at the sheet
     for (int edge = 0; edge < Edges; ++edge)
     {
       if (this->SheetOf[edge] == sheet)
       {
         const auto [low, high] = OctantsOf(edge);
-        about |= 1u << this->RegionOf[low] | 1u << this->RegionOf[high];
+        regionBits |= 1u << this->RegionOf[low] | 1u << this->RegionOf[high];
       }
     }
-    const auto isOnce = [&](int region)
+    const auto isUnique = [&](int region)
     {
       int count = 0;
       for (int other = 0; other < Octants; ++other)
       {
-        count += (about >> other & 1) != 0 && labels[other] == labels[region] ? 1 : 0;
+        count += (regionBits >> other & 1) != 0 && labels[other] == labels[region] ? 1 : 0;
       }
       return count == 1;
     };
-    // The largest region whose label is there once; if there is none, of the first rank.
+    // Prefer the largest region with a unique label, otherwise the region of the lowest rank.
     const auto before = [&](int a, int b)
     {
       const int rankA = rankOf[labels[a]];
       const int rankB = rankOf[labels[b]];
-      return std::tuple(!isOnce(a), isOnce(a) ? -size[a] : rankA, isOnce(a) ? rankA : -size[a]) <
-        std::tuple(!isOnce(b), isOnce(b) ? -size[b] : rankB, isOnce(b) ? rankB : -size[b]);
+      return std::tuple(
+               !isUnique(a), isUnique(a) ? -size[a] : rankA, isUnique(a) ? rankA : -size[a]) <
+        std::tuple(!isUnique(b), isUnique(b) ? -size[b] : rankB, isUnique(b) ? rankB : -size[b]);
     };
     int best = -1;
-    bool hasTwice = false;
+    bool hasRepeated = false;
     for (int region = 0; region < Octants; ++region)
     {
-      if ((about >> region & 1) != 0)
+      if ((regionBits >> region & 1) != 0)
       {
-        hasTwice = hasTwice || !isOnce(region);
+        hasRepeated = hasRepeated || !isUnique(region);
         best = best < 0 || before(region, best) ? region : best;
       }
     }
     this->CentreOf[sheet] = static_cast<signed char>(best);
-    this->Opened |= hasTwice ? 1u << sheet : 0u;
+    this->Opened |= hasRepeated ? 1u << sheet : 0u;
   }
 }
 }

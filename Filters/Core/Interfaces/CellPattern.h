@@ -11,61 +11,64 @@
 namespace volumic
 {
 /**
- * How the interfaces of labels pass through a cell, the cube between the centres of eight voxels.
- * Its corners, octants, are numbered by bits: 1 for the higher one along x, 2 along y, 4 along z.
- * An edge is crossed where its octants have two labels; that piece of a voxel face is an arc. Where
- * arcs cross the sides of the cell are strands:
+ * Pattern of the label interfaces in a cell, the cube between the centres of eight voxels.
  *
- * | labels about a side | strands |
+ * - Octant: a corner of the cell, numbered by bits (1: high in x, 2: high in y, 4: high in z).
+ * - Arc: the part of a voxel face in the cell. It crosses a cell edge between different labels.
+ * - Strand: a point at which arcs leave the cell through a side. Their number by labels:
+ *
+ * | labels around a side | strands |
  * |---|---|
  * | AAAB, AABB, AABC, ABCD | one |
- * | ABAC, ABAB with A before B in rank | two: A holds together across the voxel edge |
+ * | ABAC, ABAB with A before B in rank | two: A is connected across the voxel edge |
  *
- * Arcs that share a strand are a sheet, octants of one label that hold together a region. Only the
- * four labels of a side decide how it is crossed, so that both of its cells agree.
+ * - Sheet: arcs connected by strands.
+ * - Region: connected octants of one label.
+ *
+ * The crossing of a side depends on its four labels only, so that both adjacent cells agree.
  */
 class CellPattern
 {
 public:
   using Number = LabelMap::Number;
   static constexpr int Edges = 12;
-  static constexpr int Sides = 6; ///< 2 times the axis across it, and 1 for the higher one
+  static constexpr int Sides = 6; ///< side number: 2 * axis + (1 if it is the high side)
   static constexpr int Octants = 8;
 
   CellPattern() = default;
-  /** @param rankOf of each label; of a lower rank it is that holds together */
+  /** @param rankOf rank of each label; the label of lower rank is connected across voxel edges */
   CellPattern(const std::array<Number, Octants>& labels, const std::vector<int>& rankOf);
 
-  /** The edge along an axis with coordinates 0 or 1 along the two next axes (x after z). */
+  /** Return an edge along an axis, given its coordinates (0 or 1) along the next two axes. */
   static int EdgeAt(int axis, int first, int second) { return 4 * axis + first + 2 * second; }
-  /** Its octants, the lower one first. */
+  /** Return the octants of an edge, the lower one first. */
   static std::array<int, 2> OctantsOf(int edge);
-  /** Its sides: that across the next axis, and that across the one after. */
+  /** Return the sides that share an edge: normal to the next axis, and to the axis after it. */
   static std::array<int, 2> SidesOf(int edge);
 
-  /** One vertex, through which all of its polygons go; and its sides have a strand at most. */
+  /** Whether one vertex represents the cell: one sheet, at most one strand per side, not opened. */
   bool IsPlain() const { return this->Sheets == 1 && !this->HasJoins && this->Opened == 0; }
 
-  std::array<signed char, Edges> SheetOf; ///< of each edge; -1: it is not crossed
-  /** Of each edge which of the strands on each of its two sides, 0 or 1. */
+  std::array<signed char, Edges> SheetOf; ///< sheet of each edge; -1: the edge is not crossed
+  /** Strand (0 or 1) of each edge on each of its two sides. */
   std::array<std::array<signed char, 2>, Edges> StrandOf;
-  std::array<signed char, Sides> StrandsOn;
-  std::array<signed char, Octants> RegionOf; ///< an octant of it
+  std::array<signed char, Sides> StrandsOn;  ///< number of strands of each side
+  std::array<signed char, Octants> RegionOf; ///< an octant that represents the region
   int Sheets = 0;
-  bool HasJoins = false; ///< a label holds together across a voxel edge
+  bool HasJoins = false; ///< Whether a label is connected across a voxel edge.
 
   /**
-   * A sheet that two regions of one label touch cannot be one vertex, as this label's surface would
-   * touch itself there: it is opened, which gives the centre of the cell to one region.
+   * Return whether a sheet is opened: the centre of the cell is given to one region. Otherwise the
+   * surface of a label with two regions at the sheet would touch itself.
    */
   bool IsOpened(int sheet) const { return (this->Opened >> sheet & 1) != 0; }
-  std::array<signed char, 4> CentreOf; ///< of opened sheets, an octant of the region
+  std::array<signed char, 4> CentreOf; ///< octant of the region at the centre of an opened sheet
 
 private:
   void FindArcs(const std::array<Number, Octants>& labels, const std::vector<int>& rankOf);
   void FindCentres(const std::array<Number, Octants>& labels, const std::vector<int>& rankOf);
 
-  unsigned Opened = 0; ///< bits of sheets
+  unsigned Opened = 0; ///< one bit per sheet
 };
 }
 

@@ -15,23 +15,21 @@ namespace volumic
 {
 namespace
 {
-/** Points of the lattice beyond the box on each side. */
-constexpr int Beside = 2;
-constexpr int AddingRounds = 20; ///< After them points only go out, which ends.
-/** Values of what comes in or goes out, in pitches. */
-constexpr float ComesIn = -0.15f;
-constexpr float GoesOut = 0.3f;
-/** What comes in is at most so far from the surface, in pitches. */
-constexpr float FarthestIn = 0.9f;
+constexpr int Margin = 2;        ///< points of the lattice beyond each side of the box
+constexpr int AddingRounds = 20; ///< Later rounds only remove points, which terminates.
+/** Values of added and removed points, in pitches. */
+constexpr float AddedValue = -0.15f;
+constexpr float RemovedValue = 0.3f;
+constexpr float MostAdded = 0.9f; ///< maximum value of a point before it is added, in pitches
 }
 
 DistanceLattice::DistanceLattice(const Bounds& box, double pitch) : Distance(pitch)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->Low[axis] = box.Low[axis] - Beside * pitch;
+    this->Low[axis] = box.Low[axis] - Margin * pitch;
     this->Points[axis] =
-      static_cast<int>(std::ceil((box.High[axis] - box.Low[axis]) / pitch)) + 2 * Beside + 1;
+      static_cast<int>(std::ceil((box.High[axis] - box.Low[axis]) / pitch)) + 2 * Margin + 1;
     this->Bricks[axis] = (this->Points[axis] + BrickSide - 1) / BrickSide;
   }
   this->Layers.resize(static_cast<std::size_t>(this->Bricks[2]));
@@ -47,12 +45,12 @@ int DistanceLattice::FirstFrom(double coordinate, int axis) const
   return static_cast<int>(std::clamp(at, 0., static_cast<double>(this->Points[axis])));
 }
 
-LatticePoint DistanceLattice::NearestTo(const Point& place) const
+LatticePoint DistanceLattice::NearestTo(const Point& position) const
 {
   LatticePoint point;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const double at = std::round((place[axis] - this->Low[axis]) / this->Distance);
+    const double at = std::round((position[axis] - this->Low[axis]) / this->Distance);
     point[axis] = static_cast<int>(std::clamp(at, 1., this->Points[axis] - 2.));
   }
   return point;
@@ -63,10 +61,9 @@ float DistanceLattice::At(int i, int j, int k) const
   const Layer& layer = this->Layers[static_cast<std::size_t>(k / BrickSide)];
   const int first =
     layer.First[static_cast<std::size_t>(j / BrickSide) * this->Bricks[0] + i / BrickSide];
-  return first < 0
-    ? static_cast<float>(this->Distance)
-    : layer.Values[static_cast<std::size_t>(
-        first + i % BrickSide + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
+  return first < 0 ? static_cast<float>(this->Distance)
+                   : layer.Values[static_cast<std::size_t>(first + i % BrickSide +
+                       BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
 }
 
 float& DistanceLattice::Write(int i, int j, int k)
@@ -77,8 +74,7 @@ float& DistanceLattice::Write(int i, int j, int k)
   if (first < 0)
   {
     first = static_cast<int>(layer.Values.size());
-    layer.Values.resize(
-      layer.Values.size() + PointsOfBrick, static_cast<float>(this->Distance));
+    layer.Values.resize(layer.Values.size() + PointsOfBrick, static_cast<float>(this->Distance));
   }
   return layer.Values[static_cast<std::size_t>(
     first + i % BrickSide + BrickSide * (j % BrickSide + BrickSide * (k % BrickSide)))];
@@ -89,14 +85,14 @@ std::array<float, 8> DistanceLattice::CornersOf(const LatticePoint& cube) const
   std::array<float, 8> values;
   for (int corner = 0; corner < 8; ++corner)
   {
-    values[static_cast<std::size_t>(corner)] = this->At(
-      cube[0] + (corner & 1), cube[1] + (corner >> 1 & 1), cube[2] + (corner >> 2));
+    values[static_cast<std::size_t>(corner)] =
+      this->At(cube[0] + (corner & 1), cube[1] + (corner >> 1 & 1), cube[2] + (corner >> 2));
   }
   return values;
 }
 
 void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
-  const std::function<bool(const Point& place)>& mayComeIn, std::vector<LatticePoint>& changed)
+  const std::function<bool(const Point& position)>& canAdd, std::vector<LatticePoint>& changed)
 {
   const std::array<float, 8> values = this->CornersOf(cube);
   unsigned inside = 0;
@@ -121,15 +117,15 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
     const float value = values[static_cast<std::size_t>(corner)];
     const bool isWithin = p[0] > 0 && p[1] > 0 && p[2] > 0 && p[0] + 1 < this->Points[0] &&
       p[1] + 1 < this->Points[1] && p[2] + 1 < this->Points[2];
-    if (value >= 0.f && value < FarthestIn * pitch && isWithin &&
+    if (value >= 0.f && value < MostAdded * pitch && isWithin &&
       (best < 0 || value < values[static_cast<std::size_t>(best)]) &&
-      mayComeIn(this->PlaceOf(p[0], p[1], p[2])))
+      canAdd(this->PositionOf(p[0], p[1], p[2])))
     {
       best = corner;
     }
   }
-  const bool comesIn = best >= 0;
-  for (int corner = 0; corner < 8 && !comesIn; ++corner)
+  const bool isAdded = best >= 0;
+  for (int corner = 0; corner < 8 && !isAdded; ++corner)
   {
     const float value = values[static_cast<std::size_t>(corner)];
     if (value < 0.f && (best < 0 || value > values[static_cast<std::size_t>(best)]))
@@ -138,7 +134,7 @@ void DistanceLattice::Compose(const LatticePoint& cube, bool mayAdd,
     }
   }
   const LatticePoint p = pointAt(best);
-  this->Write(p[0], p[1], p[2]) = (comesIn ? ComesIn : GoesOut) * pitch;
+  this->Write(p[0], p[1], p[2]) = (isAdded ? AddedValue : RemovedValue) * pitch;
   changed.push_back(p);
 }
 
@@ -169,12 +165,11 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 {
   std::vector<LatticePoint> cubes;
   const auto size = static_cast<std::size_t>(this->Points[0]);
-  std::vector<std::uint8_t> low(size * this->Points[1]); // whether points are inside
+  std::vector<std::uint8_t> low(size * this->Points[1]); // 1 if the point is inside
   std::vector<std::uint8_t> high(low.size());
   const auto copy = [this](int k, std::vector<std::uint8_t>& inside)
   {
-    this->ForSlice(
-      k, [&inside](std::size_t at, float value) { inside[at] = value < 0.f ? 1 : 0; });
+    this->ForSlice(k, [&inside](std::size_t at, float value) { inside[at] = value < 0.f ? 1 : 0; });
   };
   const int first = layer * BrickSide;
   copy(first, high);
@@ -203,20 +198,20 @@ std::vector<LatticePoint> DistanceLattice::FindIllComposed(int layer) const
 }
 
 void DistanceLattice::MakeWellComposed(
-  const std::function<bool(const Point& place)>& mayComeIn, Executor& executor)
+  const std::function<bool(const Point& position)>& canAdd, Executor& executor)
 {
-  std::vector<std::vector<LatticePoint>> ofLayers(this->Layers.size());
-  ForSpans(executor, ofLayers.size(), 1,
+  std::vector<std::vector<LatticePoint>> perLayer(this->Layers.size());
+  ForSpans(executor, perLayer.size(), 1,
     [&](std::size_t layer, std::size_t, std::size_t)
-    { ofLayers[layer] = this->FindIllComposed(static_cast<int>(layer)); });
-  std::vector<LatticePoint> cubes = Joined(executor, ofLayers);
+    { perLayer[layer] = this->FindIllComposed(static_cast<int>(layer)); });
+  std::vector<LatticePoint> cubes = Joined(executor, perLayer);
   for (int round = 0; !cubes.empty(); ++round)
   {
     SortUnique(cubes);
     std::vector<LatticePoint> changed;
     for (const LatticePoint& cube : cubes)
     {
-      this->Compose(cube, round < AddingRounds, mayComeIn, changed);
+      this->Compose(cube, round < AddingRounds, canAdd, changed);
     }
     cubes.clear();
     for (const LatticePoint& p : changed)
@@ -229,12 +224,12 @@ void DistanceLattice::MakeWellComposed(
   }
 }
 
-IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
+IndexedSurface DistanceLattice::Boundary(bool hasShortDiagonals, Executor& executor) const
 {
   DualGrid grid;
   grid.Size = this->Points;
-  grid.RankOf = { 1, 0 }; // Of outside, and inside.
-  grid.HasShortDiagonals = isEven;
+  grid.RankOf = { 1, 0 }; // label 0: outside, label 1: inside
+  grid.HasShortDiagonals = hasShortDiagonals;
   for (int axis = 0; axis < 3; ++axis)
   {
     for (int i = 0; i < this->Points[axis]; ++i)
@@ -247,19 +242,24 @@ IndexedSurface DistanceLattice::Boundary(bool isEven, Executor& executor) const
   }
   grid.CopyValues = [&](int k, float* values)
   { this->ForSlice(k, [values](std::size_t at, float value) { values[at] = value; }); };
-  grid.CopySlice = [&](int k, LabelMap::Number* labels)
-  { this->ForSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; }); };
+  grid.CopySlice = [&](int k, LabelMap::Number* labels) {
+    this->ForSlice(k, [labels](std::size_t at, float value) { labels[at] = value < 0.f ? 1 : 0; });
+  };
   LargeVector<Vector> points;
   LargeVector<InterfaceMesh::Face> faces;
   MakeDualFaces(grid, executor, points, faces);
   IndexedSurface surface;
   surface.Points.resize(points.size());
   std::transform(points.begin(), points.end(), surface.Points.begin(),
-    [](const Vector& p) { return Point{ p.X, p.Y, p.Z }; });
+    [](const Vector& p) {
+      return Point{ p.X, p.Y, p.Z };
+    });
   surface.Triangles.resize(faces.size());
   std::transform(faces.begin(), faces.end(), surface.Triangles.begin(),
     [](const InterfaceMesh::Face& face)
-    { return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] }; }); // Seen from outside.
+    {
+      return Triangle{ face.Vertex[0], face.Vertex[2], face.Vertex[1] };
+    }); // Reversed: counter-clockwise seen from outside.
   return surface;
 }
 }

@@ -16,75 +16,73 @@
 namespace volumic
 {
 /**
- * Signed distances, negative inside, at the points of a cubic lattice, and the surface where they
- * are zero: what a surface starts from. It is the dual mesh of the lattice (MakeDualFaces), with a
- * vertex at the mean of the zeros on the edges of each cube.
+ * Signed distances, negative inside, at the points of a cubic lattice, and their zero isosurface.
+ * The isosurface is the dual mesh of the lattice (MakeDualFaces). Each vertex is the mean of the
+ * zeros on the edges of its cube.
  *
- * Memory grows with the surface: points are kept in bricks, and those of bricks without any have one
- * value. Points of different layers of bricks may be written at once.
+ * Values are stored in sparse bricks, so that memory grows with the surface area. Threads may write
+ * different layers of bricks concurrently.
  */
 class DistanceLattice
 {
 public:
-  static constexpr int BrickSide = 8; ///< points
+  static constexpr int BrickSide = 8; ///< points along each axis
 
-  /** About a box, beyond which all is outside. @param pitch distance of points; workspace */
+  /** Create a lattice around a box. @param pitch distance of points in computational space */
   DistanceLattice(const Bounds& box, double pitch);
 
   double Pitch() const { return this->Distance; }
   const std::array<int, 3>& Size() const { return this->Points; }
   int NumberOfLayers() const { return this->Bricks[2]; }
-  Point PlaceOf(int i, int j, int k) const
+  Point PositionOf(int i, int j, int k) const
   {
     return { this->Low[0] + this->Distance * i, this->Low[1] + this->Distance * j,
       this->Low[2] + this->Distance * k };
   }
-  /** The first point at or beyond a coordinate along an axis. */
+  /** Return the index of the first point at or beyond a coordinate along an axis. */
   int FirstFrom(double coordinate, int axis) const;
-  /** The point nearest to a place. */
-  LatticePoint NearestTo(const Point& place) const;
+  LatticePoint NearestTo(const Point& position) const;
 
-  /** The value of a point; of the pitch where none has been written near it. */
+  /** Return the value of a point; the pitch if its brick is not stored. */
   float At(int i, int j, int k) const;
-  /** The same, to be written. */
+  /** Return the value of a point for writing; create its brick if necessary. */
   float& Write(int i, int j, int k);
   bool IsInside(int i, int j, int k) const { return this->At(i, j, k) < 0.f; }
-  /** Calls visit(place, value) for the points of the bricks in a layer, some beyond the lattice. */
+  /** Call visit(point, value) for all points of the stored bricks of a layer. */
   template <typename Visitor>
   void ForPoints(int layer, Visitor&& visit);
 
   /**
-   * Changes signs until the surface is a manifold with a vertex in each cube: where points of one
-   * side meet in an edge or a corner of a cube alone, what is nearest to the surface comes in, if it
-   * may, and else what is least deep goes out.
+   * Change signs until the surface is a manifold with one vertex per crossed cube. In each cube
+   * whose points of one side meet only at an edge or a corner, the outside point nearest to the
+   * surface is moved inside. If no such point may be added, the shallowest inside point is removed.
+   * @param canAdd whether the point at a position may be moved inside
    */
   void MakeWellComposed(
-    const std::function<bool(const Point& place)>& mayComeIn, Executor& executor);
+    const std::function<bool(const Point& position)>& canAdd, Executor& executor);
 
   /**
-   * Closed, outward, and a manifold where it is well composed.
-   * @param isEven squares are cut along their shorter diagonals; then it may intersect itself, which
-   *               is rare and must be asked
+   * Return the isosurface: closed, oriented outward, and a manifold after MakeWellComposed().
+   * @param hasShortDiagonals cut quadrilaterals along the shorter diagonal. The surface may then
+   *                          intersect itself in rare cases, which the caller must test.
    */
-  IndexedSurface Boundary(bool isEven, Executor& executor) const;
+  IndexedSurface Boundary(bool hasShortDiagonals, Executor& executor) const;
 
 private:
   static constexpr int PointsOfBrick = BrickSide * BrickSide * BrickSide;
   struct Layer
   {
-    std::vector<int> First;    ///< of each brick its first value, -1: it has none
-    std::vector<float> Values; ///< of bricks, x fastest
+    std::vector<int> First;    ///< index of the first value of each brick; -1: not stored
+    std::vector<float> Values; ///< values of the stored bricks, x fastest
   };
 
-  /** Calls write(n, value) for the points of a slice, x fastest. */
   template <typename Visitor>
   void ForSlice(int k, const Visitor& write) const;
-  /** The cubes that begin in a layer of bricks. */
+  /** Return the cubes that start in a layer of bricks and are not well composed. */
   std::vector<LatticePoint> FindIllComposed(int layer) const;
-  /** The values of the corners of a cube. */
   std::array<float, 8> CornersOf(const LatticePoint& cube) const;
   void Compose(const LatticePoint& cube, bool mayAdd,
-    const std::function<bool(const Point& place)>& mayComeIn, std::vector<LatticePoint>& changed);
+    const std::function<bool(const Point& position)>& canAdd, std::vector<LatticePoint>& changed);
 
   Point Low;
   double Distance;
@@ -103,12 +101,12 @@ void DistanceLattice::ForPoints(int layer, Visitor&& visit)
     {
       continue;
     }
-    const int across = static_cast<int>(brick) % this->Bricks[0];
-    const int along = static_cast<int>(brick) / this->Bricks[0];
+    const int brickX = static_cast<int>(brick) % this->Bricks[0];
+    const int brickY = static_cast<int>(brick) / this->Bricks[0];
     for (int n = 0; n < PointsOfBrick; ++n)
     {
-      visit(LatticePoint{ BrickSide * across + n % BrickSide,
-              BrickSide * along + n / BrickSide % BrickSide,
+      visit(LatticePoint{ BrickSide * brickX + n % BrickSide,
+              BrickSide * brickY + n / BrickSide % BrickSide,
               BrickSide * layer + n / (BrickSide * BrickSide) },
         own.Values[static_cast<std::size_t>(own.First[brick] + n)]);
     }

@@ -10,34 +10,33 @@ namespace volumic
 {
 namespace
 {
-using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
+using LocalPoint = std::array<double, 3>;
 
-/** How far vertices of a cell or side with several go from its middle to their arcs. */
-constexpr double Apart = 0.5;
-/** The size of the copy of an opened sheet's rim. */
-constexpr double Copied = 0.5;
+/** Fraction of the distance from the middle to the arcs, for cells or sides of several vertices. */
+constexpr double ArcFraction = 0.5;
+/** Scale of the copied boundary loop of an opened sheet. */
+constexpr double CopyScale = 0.5;
 
-Place PlaceOfArc(int edge)
+LocalPoint ArcPoint(int edge)
 {
-  Place place;
-  place[edge / 4] = 0.5;
-  place[(edge / 4 + 1) % 3] = edge & 1;
-  place[(edge / 4 + 2) % 3] = edge >> 1 & 1;
-  return place;
+  LocalPoint point;
+  point[edge / 4] = 0.5;
+  point[(edge / 4 + 1) % 3] = edge & 1;
+  point[(edge / 4 + 2) % 3] = edge >> 1 & 1;
+  return point;
 }
 
-Place Between(const Place& middle, const Place& end, double share)
+LocalPoint Between(const LocalPoint& middle, const LocalPoint& end, double fraction)
 {
-  return { middle[0] + share * (end[0] - middle[0]), middle[1] + share * (end[1] - middle[1]),
-    middle[2] + share * (end[2] - middle[2]) };
+  return { middle[0] + fraction * (end[0] - middle[0]), middle[1] + fraction * (end[1] - middle[1]),
+    middle[2] + fraction * (end[2] - middle[2]) };
 }
 
-/** Of a function on the edges of a cell; each is kept near the middle of its edge, for the sake of
- * even triangles. */
-Place MeanOfZeros(const std::array<float, 8>& values)
+/** Return the mean of the zeros on the edges of a cell, clamped for triangles of similar size. */
+LocalPoint MeanOfZeros(const std::array<float, 8>& values)
 {
-  constexpr double most = 0.24; // from the middle
-  Place sum = { 0., 0., 0. };
+  constexpr double most = 0.24; // distance from the middle of the edge
+  LocalPoint sum = { 0., 0., 0. };
   int count = 0;
   for (int edge = 0; edge < CellPattern::Edges; ++edge)
   {
@@ -46,7 +45,7 @@ Place MeanOfZeros(const std::array<float, 8>& values)
     const double to = values[high];
     if ((from < 0.) != (to < 0.))
     {
-      Place zero = PlaceOfArc(edge);
+      LocalPoint zero = ArcPoint(edge);
       zero[edge / 4] = std::clamp(from / (from - to), 0.5 - most, 0.5 + most);
       for (int axis = 0; axis < 3; ++axis)
       {
@@ -62,7 +61,6 @@ Place MeanOfZeros(const std::array<float, 8>& values)
   return sum;
 }
 
-/** What two slices have at the octants of the cell that begins at a place. */
 template <typename T>
 std::array<T, 8> OctantsAt(
   const std::vector<T>& low, const std::vector<T>& high, std::size_t at, std::size_t row)
@@ -71,17 +69,17 @@ std::array<T, 8> OctantsAt(
     high[at + row], high[at + row + 1] };
 }
 
-/** From a middle so far to the arcs of which use(edge) is true. */
+/** Return a position between `middle` and the mean of the arcs for which use(edge) is true. */
 template <typename Use>
-Place TowardsArcs(const Place& middle, const Use& use)
+LocalPoint TowardsArcs(const LocalPoint& middle, const Use& use)
 {
-  Place sum = { 0., 0., 0. };
+  LocalPoint sum = { 0., 0., 0. };
   double count = 0.;
   for (int edge = 0; edge < CellPattern::Edges; ++edge)
   {
     if (use(edge))
     {
-      const Place arc = PlaceOfArc(edge);
+      const LocalPoint arc = ArcPoint(edge);
       for (int axis = 0; axis < 3; ++axis)
       {
         sum[axis] += arc[axis];
@@ -89,20 +87,20 @@ Place TowardsArcs(const Place& middle, const Use& use)
       count += 1.;
     }
   }
-  return Between(middle, { sum[0] / count, sum[1] / count, sum[2] / count }, Apart);
+  return Between(middle, { sum[0] / count, sum[1] / count, sum[2] / count }, ArcFraction);
 }
 
-Place PlaceOfApex(const CellPattern& pattern, int sheet)
+LocalPoint ApexPoint(const CellPattern& pattern, int sheet)
 {
-  const Place middle = { 0.5, 0.5, 0.5 };
+  const LocalPoint middle = { 0.5, 0.5, 0.5 };
   return pattern.Sheets == 1
     ? middle
     : TowardsArcs(middle, [&](int edge) { return pattern.SheetOf[edge] == sheet; });
 }
 
-Place PlaceOfStrand(const CellPattern& pattern, int side, int strand)
+LocalPoint StrandPoint(const CellPattern& pattern, int side, int strand)
 {
-  Place middle = { 0.5, 0.5, 0.5 };
+  LocalPoint middle = { 0.5, 0.5, 0.5 };
   middle[side / 2] = side & 1;
   if (pattern.StrandsOn[side] == 1)
   {
@@ -183,12 +181,12 @@ void DualCells::FindCells(DualSlab& slab) const
       {
         const std::size_t at = static_cast<std::size_t>(j) * row + static_cast<std::size_t>(i);
         const std::array<Number, 8> labels = OctantsAt(low, high, at, row);
-        if (std::any_of(labels.begin(), labels.end(),
-              [&labels](Number label) { return label != labels[0]; }))
+        if (std::any_of(
+              labels.begin(), labels.end(), [&labels](Number label) { return label != labels[0]; }))
         {
           this->AddCell(slab, { i, j, k }, labels,
             this->Grid.CopyValues ? MeanOfZeros(OctantsAt(lowValues, highValues, at, row))
-                                  : Place{ 0.5, 0.5, 0.5 });
+                                  : LocalPoint{ 0.5, 0.5, 0.5 });
         }
       }
     }
@@ -197,17 +195,17 @@ void DualCells::FindCells(DualSlab& slab) const
 }
 
 void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
-  const std::array<Number, 8>& labels, const Place& vertex) const
+  const std::array<Number, 8>& labels, const LocalPoint& vertex) const
 {
   slab.X.push_back(at[0]);
   CellPattern pattern;
   if (this->IsPlainPair(labels) || (pattern = CellPattern(labels, this->Grid.RankOf)).IsPlain())
   {
-    slab.Has.push_back(static_cast<int>(slab.Points.size()));
-    slab.Points.push_back(this->PlaceOf(at, vertex));
+    slab.Contents.push_back(static_cast<int>(slab.Points.size()));
+    slab.Points.push_back(this->PositionOf(at, vertex));
     return;
   }
-  slab.Has.push_back(-1 - static_cast<int>(slab.Special.size()));
+  slab.Contents.push_back(-1 - static_cast<int>(slab.Special.size()));
   SpecialCell special = {};
   special.Pattern = pattern;
   special.Labels = labels;
@@ -217,7 +215,7 @@ void DualCells::AddCell(DualSlab& slab, const std::array<int, 3>& at,
 
 bool DualCells::IsPlainPair(const std::array<Number, 8>& labels) const
 {
-  unsigned others = 0; // than the first one, bits of octants
+  unsigned others = 0; // bits of the octants whose label is not that of the first octant
   Number other = labels[0];
   for (unsigned octant = 1; octant < 8; ++octant)
   {
@@ -242,13 +240,13 @@ float DualCells::CoordinateOf(const std::array<int, 3>& cell, int axis, double a
   const bool isFirst = n == 0;
   if (this->IsAtSide(cell, axis) && (isFirst ? at < 1. : at > 0.))
   {
-    return plane; // Labels meet what is outside there; but those of the side opposite to it do not.
+    return plane; // All points except for those of the inner side lie in the plane of the box.
   }
   const double end = this->Grid.Centres[axis][at < 0.5 ? n : n + 1];
   return static_cast<float>(plane + (end - plane) * (at < 0.5 ? 1. - 2. * at : 2. * at - 1.));
 }
 
-Vector DualCells::PlaceOf(const std::array<int, 3>& cell, const Place& at) const
+Vector DualCells::PositionOf(const std::array<int, 3>& cell, const LocalPoint& at) const
 {
   return { this->CoordinateOf(cell, 0, at[0]), this->CoordinateOf(cell, 1, at[1]),
     this->CoordinateOf(cell, 2, at[2]) };
@@ -258,16 +256,15 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
 {
   for (SpecialCell& special : slab.Special)
   {
-    const auto add = [&](const Place& at)
+    const auto add = [&](const LocalPoint& at)
     {
-      slab.Points.push_back(this->PlaceOf(special.At, at));
+      slab.Points.push_back(this->PositionOf(special.At, at));
       return static_cast<int>(slab.Points.size()) - 1;
     };
     const CellPattern& pattern = special.Pattern;
     for (int sheet = 0; sheet < pattern.Sheets; ++sheet)
     {
-      special.Apex[sheet] =
-        pattern.IsOpened(sheet) ? -1 : add(PlaceOfApex(pattern, sheet));
+      special.Apex[sheet] = pattern.IsOpened(sheet) ? -1 : add(ApexPoint(pattern, sheet));
     }
     for (int side = 0; side < CellPattern::Sides; ++side)
     {
@@ -277,12 +274,11 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       for (int strand = 0; strand < 2; ++strand)
       {
         special.InnerStrand[side][strand] = -1;
-        special.Strand[side][strand] = isOwn && strand < pattern.StrandsOn[side]
-          ? add(PlaceOfStrand(pattern, side, strand))
-          : -1;
+        special.Strand[side][strand] =
+          isOwn && strand < pattern.StrandsOn[side] ? add(StrandPoint(pattern, side, strand)) : -1;
       }
     }
-    const Place middle = { 0.5, 0.5, 0.5 };
+    const LocalPoint middle = { 0.5, 0.5, 0.5 };
     for (int edge = 0; edge < CellPattern::Edges; ++edge)
     {
       special.InnerArc[edge] = -1;
@@ -291,18 +287,18 @@ void DualCells::AddPointsOfSpecials(DualSlab& slab) const
       {
         continue;
       }
-      Place arc = PlaceOfArc(edge);
+      LocalPoint arc = ArcPoint(edge);
       const auto sides = CellPattern::SidesOf(edge);
       for (int n = 0; n < 2; ++n)
       {
         const int strand = pattern.StrandOf[edge][n];
-        const Place place = PlaceOfStrand(pattern, sides[n], strand);
+        const LocalPoint point = StrandPoint(pattern, sides[n], strand);
         int& inner = special.InnerStrand[sides[n]][strand];
-        inner = inner >= 0 ? inner : add(Between(middle, place, Copied));
-        // In the plane of a box's side the copies of this and of others would coincide.
-        arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, place, 0.5) : arc;
+        inner = inner >= 0 ? inner : add(Between(middle, point, CopyScale));
+        // In the plane of a box side, this copy would coincide with copies of other arcs.
+        arc = this->IsOppositeToSide(special.At, sides[n]) ? Between(arc, point, 0.5) : arc;
       }
-      special.InnerArc[edge] = add(Between(middle, arc, Copied));
+      special.InnerArc[edge] = add(Between(middle, arc, CopyScale));
     }
   }
 }
@@ -319,6 +315,6 @@ bool DualCells::IsSpecial(const std::array<int, 3>& cell) const
   const auto end = slab.X.begin() + static_cast<std::ptrdiff_t>(slab.Row[row + 1]);
   const auto at = std::lower_bound(first, end, cell[0]);
   return at != end && *at == cell[0] &&
-    slab.Has[static_cast<std::size_t>(at - slab.X.begin())] < 0;
+    slab.Contents[static_cast<std::size_t>(at - slab.X.begin())] < 0;
 }
 }

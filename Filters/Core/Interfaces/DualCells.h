@@ -13,56 +13,54 @@
 
 namespace volumic
 {
-/** A cell that is not plain (CellPattern). Points: of its slab; -1: it has none. */
+/** A cell that is not plain (CellPattern). Points are indices into its slab; -1: none. */
 struct SpecialCell
 {
   CellPattern Pattern;
   std::array<LabelMap::Number, 8> Labels;
   std::array<int, 3> At;
-  std::array<int, 4> Apex;                       ///< of each sheet
-  std::array<std::array<int, 2>, 6> Strand;      ///< where they are those of this cell
-  std::array<std::array<int, 2>, 6> InnerStrand; ///< of opened sheets, the copies
-  std::array<int, 12> InnerArc;
+  std::array<int, 4> Apex;                       ///< point of each sheet
+  std::array<std::array<int, 2>, 6> Strand;      ///< points of the strands that this cell owns
+  std::array<std::array<int, 2>, 6> InnerStrand; ///< copies of the strands of opened sheets
+  std::array<int, 12> InnerArc;                  ///< points on the arcs of opened sheets
 
-  /** The copy of an arc's strand on one of its edge's two sides (CellPattern::SidesOf). */
+  /** Return the copy of the strand of an edge on its side n (CellPattern::SidesOf). */
   int InnerStrandAt(int edge, int n) const
   {
     return this->InnerStrand[CellPattern::SidesOf(edge)[n]][this->Pattern.StrandOf[edge][n]];
   }
 };
 
-/** Some layers of cells, and the voxel faces and special cells in them. */
+/** Consecutive layers of cells with their points and triangles. */
 struct DualSlab
 {
   int First = 0;
   int End = 0;
-  // Rows of cells, y fastest: of each the first of its crossed cells, their X and what they have.
-  std::vector<std::size_t> Row;
-  std::vector<int> X;
-  std::vector<int> Has; ///< a point, or -1 less the number of a special cell
+  std::vector<std::size_t> Row; ///< first crossed cell of each row of cells, y fastest
+  std::vector<int> X;           ///< x index of each crossed cell
+  std::vector<int> Contents;    ///< point of each crossed cell, or -1 - index of a special cell
   std::vector<SpecialCell> Special;
   std::vector<Vector> Points;
-  /** Points of this slab, or, negative, -1 less one of the slab before. */
+  /** Vertices are points of this slab; a negative v means point -1 - v of the previous slab. */
   std::vector<InterfaceMesh::Face> Faces;
 };
 
-/** The cells of a grid that interfaces pass through, and their points: for MakeDualMesh(). */
+/** The cells that interfaces cross, and their points (used by MakeDualMesh). */
 class DualCells
 {
 public:
-  static constexpr int SlabSize = 16; ///< layers of cells that a thread makes at a time
+  static constexpr int SlabSize = 16; ///< layers of cells per slab, the unit of work of a thread
 
-  /** The grid must outlive it. */
+  /** @param grid must outlive this object */
   explicit DualCells(const DualGrid& grid);
 
-  /** Finds the cells, and makes the points in them. */
   void Make(Executor& executor);
 
-  /** Whether a pattern of two labels, bits of the octants of earlier rank, is plain. */
+  /** Return whether a pattern of two labels is plain. @param bits octants of the lower rank */
   static bool IsPlainPattern(unsigned bits);
 
   const DualGrid& Grid;
-  const int Rows; ///< of cells in a layer
+  const int Rows; ///< rows of cells per layer
   std::vector<DualSlab> Slabs;
 
   std::size_t SliceSize() const
@@ -73,7 +71,7 @@ public:
   {
     return this->Grid.Outside >= 0 && label == this->Grid.Outside;
   }
-  /** Whether a cell has its points in one plane across an axis, at the side of a box. */
+  /** Return whether the points of a cell lie in a side of the box normal to an axis. */
   bool IsAtSide(const std::array<int, 3>& cell, int axis) const
   {
     return this->Grid.Outside >= 0 && (cell[axis] == 0 || cell[axis] == this->Grid.Size[axis] - 2);
@@ -81,17 +79,17 @@ public:
 
 private:
   using Number = LabelMap::Number;
-  using Place = std::array<double, 3>; ///< in a cell, from 0 to 1
+  using LocalPoint = std::array<double, 3>; ///< coordinates in a cell, from 0 to 1
 
   void FindCells(DualSlab& slab) const;
-  /** @param vertex where it is if the cell is plain */
+  /** @param vertex position of the point if the cell is plain */
   void AddCell(DualSlab& slab, const std::array<int, 3>& at, const std::array<Number, 8>& labels,
-    const Place& vertex) const;
-  /** Whether there are two labels, in a pattern that is plain: most cells, and quickly found. */
+    const LocalPoint& vertex) const;
+  /** Return whether a cell has two labels in a plain pattern: the fast test for most cells. */
   bool IsPlainPair(const std::array<Number, 8>& labels) const;
   float CoordinateOf(const std::array<int, 3>& cell, int axis, double at) const;
-  Vector PlaceOf(const std::array<int, 3>& cell, const Place& at) const;
-  /** Whether a cell is at the side of a box, with this one of its own sides within the box. */
+  Vector PositionOf(const std::array<int, 3>& cell, const LocalPoint& at) const;
+  /** Return whether a cell is at a side of the box and this side of the cell is the inner one. */
   bool IsOppositeToSide(const std::array<int, 3>& cell, int side) const
   {
     return this->IsAtSide(cell, side / 2) && ((side & 1) == 1) == (cell[side / 2] == 0);

@@ -17,12 +17,10 @@ namespace
 using Number = LabelMap::Number;
 using Slab = DualSlab;
 
-/** The four cells about a voxel face across an axis, round about: whether they are lower along the
- * two next axes. */
-constexpr std::array<std::array<int, 2>, 4> CellsAbout = { { { 0, 0 }, { 1, 0 }, { 1, 1 },
+/** The four cells around a voxel face, in cyclic order: 1 if lower along the next two axes. */
+constexpr std::array<std::array<int, 2>, 4> CellsAround = { { { 0, 0 }, { 1, 0 }, { 1, 1 },
   { 0, 1 } } };
-/** The sides of these cells that lead to the one before and to the next one: that across the first
- * of the two axes, or the second. */
+/** Axis (first or second of the two) normal to the side towards the previous and the next cell. */
 constexpr std::array<int, 4> SideBefore = { 1, 0, 1, 0 };
 constexpr std::array<int, 4> SideAfter = { 0, 1, 0, 1 };
 
@@ -41,12 +39,12 @@ public:
   }
 
 private:
-  /** What the cells of two layers have, those of the voxel faces of a slice. */
+  /** Contents of the two layers of cells below and above a slice of voxels. */
   struct Layers
   {
-    std::vector<int> Below; ///< as Slab::Has; NoCell
+    std::vector<int> Below; ///< values of DualSlab::Contents, or NoCell
     std::vector<int> Above;
-    bool IsBelowBefore = false; ///< in the slab before
+    bool IsBelowPrevious = false; ///< Whether Below belongs to the previous slab.
   };
   static constexpr int NoCell = -2147483647;
 
@@ -63,7 +61,7 @@ private:
       const std::size_t row = static_cast<std::size_t>(k - slab.First) * this->Cells.Rows + j;
       for (std::size_t n = slab.Row[row]; n < slab.Row[row + 1]; ++n)
       {
-        layer[static_cast<std::size_t>(j) * this->Grid.Size[0] + slab.X[n]] = slab.Has[n];
+        layer[static_cast<std::size_t>(j) * this->Grid.Size[0] + slab.X[n]] = slab.Contents[n];
       }
     }
   }
@@ -80,7 +78,7 @@ private:
     {
       slice.swap(next);
       layers.Below.swap(layers.Above);
-      layers.IsBelowBefore = k == slab.First;
+      layers.IsBelowPrevious = k == slab.First;
       this->Grid.CopySlice(k + 1, next.data());
       this->Fill(layers.Above, k);
       for (int j = 0; j + 1 < this->Grid.Size[1]; ++j)
@@ -113,7 +111,7 @@ private:
     }
   }
 
-  /** A triangle with labels behind and in front of it; at a side of a box with its number. */
+  /** Add a triangle between two labels. @param side side of the box, if one label is outside */
   void AddTriangle(
     Slab& slab, const std::array<int, 3>& vertices, Number behind, Number front, int side) const
   {
@@ -137,63 +135,62 @@ private:
     slab.Faces.push_back(face);
   }
 
-  /** The rim of a voxel face's polygon: points as those of Slab::Faces. */
-  struct Ring
+  /** Boundary loop of a voxel face. Points are encoded as in DualSlab::Faces. */
+  struct Loop
   {
     std::array<int, 20> Point;
     int Count = 0;
   };
 
   /**
-   * Of a voxel face some of whose cells are special.
-   * @param special  which of its cells, round about, are; null: plain
-   * @param has      of these cells, as Slab::Has
-   * @param isBefore whether they are in the slab before
+   * Return the boundary loop of a voxel face with special cells.
+   * @param special  the four cells in cyclic order; null: plain
+   * @param contents their values of DualSlab::Contents
+   * @param isPrevious whether they are in the previous slab
    */
-  static Ring RingAbout(const std::array<const SpecialCell*, 4>& special, const std::array<int, 4>& has,
-    const std::array<bool, 4>& isBefore, int axis)
+  static Loop LoopAround(const std::array<const SpecialCell*, 4>& special,
+    const std::array<int, 4>& contents, const std::array<bool, 4>& isPrevious, int axis)
   {
-    Ring ring;
+    Loop loop;
     for (int q = 0; q < 4; ++q)
     {
-      const int edge = CellPattern::EdgeAt(axis, CellsAbout[q][0], CellsAbout[q][1]);
+      const int edge = CellPattern::EdgeAt(axis, CellsAround[q][0], CellsAround[q][1]);
       const SpecialCell* here = special[q];
       const int before = (q + 3) % 4;
       if (here || special[before])
       {
-        // That cell of the two which is special, and if both are, the lower one, has the strand.
-        const int place = SideBefore[q];
-        const bool isHigh = CellsAbout[q][place] == 1; // of this cell
+        // The strand belongs to the special cell of the two, and to the lower one if both are.
+        const int index = SideBefore[q];
+        const bool isHigh = CellsAround[q][index] == 1; // The side is the high one of this cell.
         const bool isOfHere = here && (isHigh || !special[before]);
         const int q0 = isOfHere ? q : before;
         const int edge0 = isOfHere
           ? edge
-          : CellPattern::EdgeAt(axis, CellsAbout[before][0], CellsAbout[before][1]);
-        const int strand = special[q0]->Pattern.StrandOf[edge0][place];
-        const int sideOfCell = CellPattern::SidesOf(edge0)[place];
-        ring.Point[ring.Count++] =
-          Refer(special[q0]->Strand[sideOfCell][strand], isBefore[q0]);
+          : CellPattern::EdgeAt(axis, CellsAround[before][0], CellsAround[before][1]);
+        const int strand = special[q0]->Pattern.StrandOf[edge0][index];
+        const int sideOfCell = CellPattern::SidesOf(edge0)[index];
+        loop.Point[loop.Count++] = Encode(special[q0]->Strand[sideOfCell][strand], isPrevious[q0]);
       }
       if (!here)
       {
-        ring.Point[ring.Count++] = Refer(has[q], isBefore[q]);
+        loop.Point[loop.Count++] = Encode(contents[q], isPrevious[q]);
         continue;
       }
       const CellPattern& pattern = here->Pattern;
       const int sheet = pattern.SheetOf[edge];
       if (!pattern.IsOpened(sheet))
       {
-        ring.Point[ring.Count++] = Refer(here->Apex[sheet], isBefore[q]);
+        loop.Point[loop.Count++] = Encode(here->Apex[sheet], isPrevious[q]);
         continue;
       }
-      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideBefore[q]), isBefore[q]);
-      ring.Point[ring.Count++] = Refer(here->InnerArc[edge], isBefore[q]);
-      ring.Point[ring.Count++] = Refer(here->InnerStrandAt(edge, SideAfter[q]), isBefore[q]);
+      loop.Point[loop.Count++] = Encode(here->InnerStrandAt(edge, SideBefore[q]), isPrevious[q]);
+      loop.Point[loop.Count++] = Encode(here->InnerArc[edge], isPrevious[q]);
+      loop.Point[loop.Count++] = Encode(here->InnerStrandAt(edge, SideAfter[q]), isPrevious[q]);
     }
-    return ring;
+    return loop;
   }
 
-  static int Refer(int point, bool isBefore) { return isBefore ? -1 - point : point; }
+  static int Encode(int point, bool isPrevious) { return isPrevious ? -1 - point : point; }
 
   void AddVoxelFace(std::size_t number, const Layers& layers, const std::array<int, 3>& voxel,
     int axis, Number behind, Number front)
@@ -201,32 +198,32 @@ private:
     Slab& slab = this->Cells.Slabs[number];
     const std::array<int, 2> across = { (axis + 1) % 3, (axis + 2) % 3 };
     std::array<std::array<int, 3>, 4> cells;
-    std::array<int, 4> has;
-    std::array<bool, 4> isBefore;
+    std::array<int, 4> contents;
+    std::array<bool, 4> isPrevious;
     bool arePlain = true;
     for (int q = 0; q < 4; ++q)
     {
       cells[q] = voxel;
-      cells[q][across[0]] -= CellsAbout[q][0];
-      cells[q][across[1]] -= CellsAbout[q][1];
+      cells[q][across[0]] -= CellsAround[q][0];
+      cells[q][across[1]] -= CellsAround[q][1];
       const bool isBelow = cells[q][2] < voxel[2];
-      has[q] = (isBelow ? layers.Below
-                        : layers.Above)[static_cast<std::size_t>(cells[q][1]) * this->Grid.Size[0] +
-        cells[q][0]];
-      isBefore[q] = isBelow && layers.IsBelowBefore;
-      arePlain = arePlain && has[q] >= 0;
+      contents[q] = (isBelow
+          ? layers.Below
+          : layers.Above)[static_cast<std::size_t>(cells[q][1]) * this->Grid.Size[0] + cells[q][0]];
+      isPrevious[q] = isBelow && layers.IsBelowPrevious;
+      arePlain = arePlain && contents[q] >= 0;
     }
     const int side = 2 * axis + (voxel[axis] == 0 ? 0 : 1);
     if (arePlain)
     {
-      // All diagonals are of cells of one parity, or safe distances would be shorter; alike in
-      // opposite sides of a box.
+      // Diagonals connect cells of one parity: other diagonals reduce the distance of triangles.
+      // Opposite sides of a box have the same diagonals.
       const bool isInSide = this->Cells.IsOutside(behind) || this->Cells.IsOutside(front);
       const auto squared = [&](int q)
       {
-        const auto place = [&](int p)
-        { return this->Cells.Slabs[number - (isBefore[p] ? 1 : 0)].Points[has[p]]; };
-        return SquaredDistance(place(q), place(q + 2));
+        const auto positionOf = [&](int p)
+        { return this->Cells.Slabs[number - (isPrevious[p] ? 1 : 0)].Points[contents[p]]; };
+        return SquaredDistance(positionOf(q), positionOf(q + 2));
       };
       const int turn = this->Grid.HasShortDiagonals
         ? (squared(1) < squared(0) ? 1 : 0)
@@ -237,7 +234,7 @@ private:
         for (int n = 0; n < 3; ++n)
         {
           const int q = (turn + 2 * half + n) % 4;
-          vertices[n] = Refer(has[q], isBefore[q]);
+          vertices[n] = Encode(contents[q], isPrevious[q]);
         }
         this->AddTriangle(slab, vertices, behind, front, side);
       }
@@ -246,37 +243,37 @@ private:
     std::array<const SpecialCell*, 4> special;
     for (int q = 0; q < 4; ++q)
     {
-      const Slab& own = this->Cells.Slabs[number - (isBefore[q] ? 1 : 0)];
-      special[q] = has[q] < 0 ? &own.Special[static_cast<std::size_t>(-1 - has[q])] : nullptr;
+      const Slab& own = this->Cells.Slabs[number - (isPrevious[q] ? 1 : 0)];
+      special[q] =
+        contents[q] < 0 ? &own.Special[static_cast<std::size_t>(-1 - contents[q])] : nullptr;
     }
-    const Ring ring = this->RingAbout(special, has, isBefore, axis);
+    const Loop loop = this->LoopAround(special, contents, isPrevious, axis);
     const int centre = static_cast<int>(slab.Points.size());
-    std::array<float, 3> place;
+    std::array<float, 3> position;
     for (int n = 0; n < 3; ++n)
     {
-      place[n] = n == axis ? this->Grid.Planes[n][voxel[n]] : this->Grid.Centres[n][voxel[n]];
+      position[n] = n == axis ? this->Grid.Planes[n][voxel[n]] : this->Grid.Centres[n][voxel[n]];
     }
-    slab.Points.push_back({ place[0], place[1], place[2] });
-    for (int n = 0; n < ring.Count; ++n)
+    slab.Points.push_back({ position[0], position[1], position[2] });
+    for (int n = 0; n < loop.Count; ++n)
     {
-      this->AddTriangle(slab, { centre, ring.Point[n], ring.Point[(n + 1) % ring.Count] }, behind,
-        front, side);
+      this->AddTriangle(
+        slab, { centre, loop.Point[n], loop.Point[(n + 1) % loop.Count] }, behind, front, side);
     }
   }
 
-  /** Of an opened sheet, the fans of all regions but that which has the centre. */
+  /** Close the regions of an opened sheet by fans, except for the region at the centre. */
   void AddCaps(Slab& slab, const SpecialCell& special, int sheet)
   {
     const CellPattern& pattern = special.Pattern;
     const int centre = pattern.CentreOf[sheet];
     for (int region = 0; region < CellPattern::Octants; ++region)
     {
-      if (pattern.RegionOf[region] != region ||
-        special.Labels[region] == special.Labels[centre])
+      if (pattern.RegionOf[region] != region || special.Labels[region] == special.Labels[centre])
       {
         continue;
       }
-      std::vector<std::array<int, 2>> rim; // counter-clockwise, seen from the centre
+      std::vector<std::array<int, 2>> link; // counter-clockwise, seen from the centre
       for (int edge = 0; edge < CellPattern::Edges; ++edge)
       {
         const auto [low, high] = CellPattern::OctantsOf(edge);
@@ -285,33 +282,31 @@ private:
         {
           continue;
         }
-        int q = 0; // the cell's place about the arc's voxel face
-        while (CellsAbout[q][0] != (edge & 1) || CellsAbout[q][1] != (edge >> 1 & 1))
+        int q = 0; // index of this cell around the voxel face of the arc
+        while (CellsAround[q][0] != (edge & 1) || CellsAround[q][1] != (edge >> 1 & 1))
         {
           ++q;
         }
         const int arc = special.InnerArc[edge];
-        rim.push_back(
-          { special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
-        rim.push_back(
-          { arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
+        link.push_back({ special.InnerStrandAt(edge, isLow ? SideAfter[q] : SideBefore[q]), arc });
+        link.push_back({ arc, special.InnerStrandAt(edge, isLow ? SideBefore[q] : SideAfter[q]) });
       }
-      if (!rim.empty())
+      if (!link.empty())
       {
-        this->AddCap(slab, special, rim, special.Labels[region], special.Labels[centre]);
+        this->AddCap(slab, special, link, special.Labels[region], special.Labels[centre]);
       }
     }
   }
 
-  void AddCap(Slab& slab, const SpecialCell& special, const std::vector<std::array<int, 2>>& rim,
+  void AddCap(Slab& slab, const SpecialCell& special, const std::vector<std::array<int, 2>>& link,
     Number inside, Number outside)
   {
     VectorD sum;
-    for (const std::array<int, 2>& piece : rim)
+    for (const std::array<int, 2>& piece : link)
     {
       sum += VectorD(slab.Points[static_cast<std::size_t>(piece[0])]);
     }
-    Vector middle(sum * (1. / static_cast<double>(rim.size())));
+    Vector middle(sum * (1. / static_cast<double>(link.size())));
     int side = 0;
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -324,7 +319,7 @@ private:
     }
     const int centre = static_cast<int>(slab.Points.size());
     slab.Points.push_back(middle);
-    for (const std::array<int, 2>& piece : rim)
+    for (const std::array<int, 2>& piece : link)
     {
       this->AddTriangle(slab, { centre, piece[0], piece[1] }, inside, outside, side);
     }

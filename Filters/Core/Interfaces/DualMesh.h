@@ -13,49 +13,51 @@
 
 namespace volumic
 {
-/** A map of labels, or of the two sides of a surface, and where its voxels are. */
+/** Labels on a rectilinear grid: input of MakeDualMesh(). Lengths are in computational space. */
 struct DualGrid
 {
-  std::array<int, 3> Size; ///< voxels; the outermost ones are all of 0, or all of Outside
-  std::array<std::vector<float>, 3> Centres; ///< of voxels, along each axis; workspace
-  std::array<std::vector<float>, 3> Planes;  ///< of faces, that after each voxel but the last one
-  /** Of each label: of two that meet across a voxel edge that of the lower rank holds together. */
+  std::array<int, 3> Size; ///< number of voxels; all outermost voxels have label 0 or Outside
+  std::array<std::vector<float>, 3> Centres; ///< coordinates of voxel centres along each axis
+  std::array<std::vector<float>, 3> Planes;  ///< coordinates of the faces between voxels
+  /** Rank of each label. Of two labels at a voxel edge, the one of lower rank is connected. */
   std::vector<int> RankOf;
-  /** What is about a box, and the number of its first side (InterfaceMesh::FirstSide); -1: none. */
+  /** Label outside the box and number of its first side (InterfaceMesh::FirstSide); -1: no box. */
   int Outside = -1;
-  /** Writes the labels of a slice, x fastest; called by threads. */
+  /** Write the labels of a slice, x fastest. Called by several threads. */
   std::function<void(int k, LabelMap::Number* labels)> CopySlice;
   /**
-   * Where labels are the signs of a function, its values. The vertices of plain cells are then at
-   * the mean of its zeros on their edges, in place of the middle.
+   * Write the values of the function whose signs are the labels (optional). Vertices of plain cells
+   * are then the mean of its zeros on the cell edges instead of the centre.
    */
   std::function<void(int k, float* values)> CopyValues;
-  /** Voxel faces are cut along the shorter diagonal; triangles may intersect then. */
+  /** Whether to cut voxel faces along the shorter diagonal. Triangles may then intersect. */
   bool HasShortDiagonals = false;
 };
 
 /**
- * The interfaces of labels with the topology of their voxels: the dual mesh of the voxel faces.
- * Not the paper's; after Gibson's constrained elastic surface nets (1998), whose vertices are split
- * here so that all surfaces are manifolds: a vertex in each sheet of each cell (CellPattern), and two
- * triangles for each voxel face whose four cells are plain. Other voxel faces are fans about their
- * centres, with a vertex for each strand.
+ * Create the interfaces of labels with the topology of their voxels: the dual mesh of the voxel
+ * faces. The method extends constrained elastic surface nets (Gibson 1998) and is not in the paper.
+ * Each sheet of a cell has its own vertex (CellPattern), so that all surfaces are manifolds. A
+ * voxel face with four plain cells becomes two triangles. Other voxel faces become fans around
+ * their centres, with a vertex for each strand.
  *
- * A label is connected through voxel faces; through a voxel edge, where its two voxels are opposite,
- * and the two others are of two labels, or of one of later rank; never through a voxel corner
- * alone, but for one pattern: four labels, each at two opposite corners of a cell, of which that of
- * first rank is connected. Each label's surface is closed, and a manifold, and no triangles
- * intersect.
+ * A label is connected
+ * - through voxel faces;
+ * - through a voxel edge with two opposite voxels of the label, if the two other voxels have
+ *   different labels or one label of higher rank;
+ * - through a voxel corner in one pattern only: four labels, each at two opposite corners of a
+ *   cell. The label of the lowest rank is then connected.
  *
- * An opened sheet (CellPattern::IsOpened): its rim on the cell's sides is copied at half the size
- * about the cell's centre; polygons reach from the one to the other, and each region but that which
- * takes the centre is closed by a fan.
+ * The surface of each label is a closed manifold, and no triangles intersect. Vertices at the sides
+ * of a box lie in the planes of these sides.
  *
- * At the sides of a box vertices are in their planes.
+ * The boundary loop of an opened sheet (CellPattern::IsOpened) on the sides of the cell is copied
+ * at half the size around the centre of the cell. Polygons connect both loops. A fan closes each
+ * region except for the one at the centre.
  */
 InterfaceMesh MakeDualMesh(const DualGrid& grid, Executor& executor);
 
-/** The triangles alone. */
+/** Create the points and triangles of MakeDualMesh() only. */
 void MakeDualFaces(const DualGrid& grid, Executor& executor, LargeVector<Vector>& points,
   LargeVector<InterfaceMesh::Face>& faces);
 }

@@ -13,7 +13,6 @@ namespace volumic
 {
 namespace
 {
-/** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
 bool Has(const MeshTriangle& face, int v)
@@ -26,7 +25,7 @@ const VectorD& CornerAt(const MeshTriangle& face, int v)
   return face.Corner[std::find(face.Vertex, face.Vertex + 3, v) - face.Vertex];
 }
 
-/** From one face to the other one about the edge: the angle's cosine and sine, times a length. */
+/** Signed dihedral angle between two faces at an edge: cosine and sine, up to a common factor. */
 struct Turn
 {
   double Cosine;
@@ -44,16 +43,17 @@ Turn TurnAt(int u, int v, const std::array<MeshTriangle, 2>& faces)
 
 VectorD AcrossEdge(const MeshTriangle& face, int u, int v)
 {
-  const int at = static_cast<int>(std::find_if(face.Vertex, face.Vertex + 3,
-    [&](int w) { return w != u && w != v; }) - face.Vertex);
+  const int at = static_cast<int>(
+    std::find_if(face.Vertex, face.Vertex + 3, [&](int w) { return w != u && w != v; }) -
+    face.Vertex);
   const VectorD& from = CornerAt(face, u);
   const VectorD axis = CornerAt(face, v) - from;
-  const VectorD way = face.Corner[at] - from;
-  return way * SquaredLength(axis) - axis * Dot(axis, way);
+  const VectorD toCorner = face.Corner[at] - from;
+  return toCorner * SquaredLength(axis) - axis * Dot(axis, toCorner);
 }
 
-bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
-  const std::array<MeshTriangle, 2>& after)
+bool HavePassed(
+  int u, int v, const std::array<MeshTriangle, 2>& before, const std::array<MeshTriangle, 2>& after)
 {
   const Turn from = TurnAt(u, v, before);
   const Turn to = TurnAt(u, v, after);
@@ -61,9 +61,9 @@ bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   {
     return false;
   }
-  constexpr double flat = 3.14159265358979;
+  constexpr double straightAngle = 3.14159265358979;
   return std::abs(std::atan2(from.Sine, from.Cosine)) + std::abs(std::atan2(to.Sine, to.Cosine)) <
-    flat;
+    straightAngle;
 }
 
 float LongestSide(const Box& box)
@@ -77,12 +77,12 @@ Box BoxOf(const MeshTriangle& t)
   return Box::Of(Vector(t.Corner[0]), Vector(t.Corner[1]), Vector(t.Corner[2]));
 }
 
-PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
+FaceCoordinates FaceCoordinatesOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 {
   return { TriangleOf(mesh, face.Vertex), face.Behind, face.Front };
 }
 
-bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
+bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces)
 {
   struct Side
   {
@@ -94,22 +94,22 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
   VectorD axis;
   VectorD first;
   VectorD second;
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     int at = 0;
     while (face.Vertex[at] == u || face.Vertex[at] == v)
     {
       ++at;
     }
-    // From the opposite vertex on, the edge is gone along in the one direction or the other.
+    // Direction of the edge in the face, from the opposite vertex on.
     const bool isForward = face.Vertex[(at + 1) % 3] == u;
     const VectorD& from = face.Corner[(at + (isForward ? 1 : 2)) % 3];
     if (turns.empty())
     {
       axis = Normalized(face.Corner[(at + (isForward ? 2 : 1)) % 3] - from);
     }
-    const VectorD way = face.Corner[at] - from;
-    const VectorD across = way - axis * Dot(axis, way);
+    const VectorD toCorner = face.Corner[at] - from;
+    const VectorD across = toCorner - axis * Dot(axis, toCorner);
     if (turns.empty())
     {
       first = across;
@@ -118,8 +118,8 @@ bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces)
     turns.push_back({ std::atan2(Dot(second, across), Dot(first, across)),
       isForward ? face.Behind : face.Front, isForward ? face.Front : face.Behind });
   }
-  std::sort(turns.begin(), turns.end(),
-    [](const Side& a, const Side& b) { return a.Angle < b.Angle; });
+  std::sort(
+    turns.begin(), turns.end(), [](const Side& a, const Side& b) { return a.Angle < b.Angle; });
   for (std::size_t n = 0; n < turns.size(); ++n)
   {
     if (turns[n].After != turns[(n + 1) % turns.size()].Before)
@@ -163,7 +163,6 @@ void InterfaceClearance::Reset(Executor& executor)
     });
   this->All = boxes.All;
   this->Reach = 0.5f * boxes.Longest;
-  // A cell is as wide as a box is long in the mean.
   this->Grid.Reset(
     this->All.Low, this->All.High, std::max(static_cast<float>(boxes.MeanSide()), 1e-6f));
   this->Grid.InsertAll(
@@ -221,7 +220,7 @@ int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
   return -1;
 }
 
-bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
+bool InterfaceClearance::AreClear(const std::vector<FaceCoordinates>& faces,
   const std::vector<int>& replaced, std::vector<int>& near) const
 {
   if (faces.empty())
@@ -230,7 +229,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   }
   Box all = volumic::BoxOf(faces.front());
   std::vector<Box> boxes;
-  for (const PlacedFace& triangle : faces)
+  for (const FaceCoordinates& triangle : faces)
   {
     const Box box = volumic::BoxOf(triangle);
     all = all.With(box);
@@ -248,7 +247,8 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
   }
   std::vector<const Sheet*> sheetOf;
   std::transform(faces.begin(), faces.end(), std::back_inserter(sheetOf),
-    [&](const PlacedFace& face) -> const Sheet* {
+    [&](const FaceCoordinates& face) -> const Sheet*
+    {
       return &*std::find_if(
         sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
     });
@@ -264,7 +264,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     }
   }
   const bool isAtLine = std::any_of(faces.begin(), faces.end(),
-    [this](const PlacedFace& face) { return this->IsAtLine(face); });
+    [this](const FaceCoordinates& face) { return this->IsAtLine(face); });
   std::vector<int> others;
   for (const int face : near)
   {
@@ -276,13 +276,12 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
     {
       others.push_back(face);
     }
-    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(face)];
+    const InterfaceMesh::Face& existing = this->Mesh.Faces[static_cast<std::size_t>(face)];
     const Box& box = this->BoxOf(face);
     for (std::size_t n = 0; n < faces.size(); ++n)
     {
-      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(there)) &&
-        !box.IsApartFrom(boxes[n]) &&
-        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, there.Vertex), this->Tolerance))
+      if (!(sheetOf[n]->IsOne && sheetOf[n]->Has(existing)) && !box.IsApartFrom(boxes[n]) &&
+        TrianglesIntersect(faces[n], TriangleOf(this->Mesh, existing.Vertex), this->Tolerance))
       {
         return false;
       }
@@ -292,7 +291,7 @@ bool InterfaceClearance::AreClear(const std::vector<PlacedFace>& faces,
 }
 
 std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& near) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& near) const
 {
   std::vector<Sheet> sheets;
   const auto sheetOf = [&](const auto& face)
@@ -300,7 +299,7 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
     return std::find_if(
       sheets.begin(), sheets.end(), [&](const Sheet& sheet) { return sheet.Has(face); });
   };
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     auto sheet = sheetOf(face);
     if (sheet == sheets.end())
@@ -313,13 +312,11 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
   {
     sheet.Along = Normalized(sheet.Along);
   }
-  const auto look = [](Sheet& sheet, const VectorD& normal)
+  const auto update = [](Sheet& sheet, const VectorD& normal)
+  { sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal); };
+  for (const FaceCoordinates& face : faces)
   {
-    sheet.IsOne = sheet.IsOne && Dot(normal, sheet.Along) > LeastSheetCosine * Length(normal);
-  };
-  for (const PlacedFace& face : faces)
-  {
-    look(*sheetOf(face), NormalOf(face));
+    update(*sheetOf(face), NormalOf(face));
   }
   for (const int f : near)
   {
@@ -327,7 +324,7 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
     const auto sheet = sheetOf(face);
     if (sheet != sheets.end())
     {
-      look(*sheet, this->Mesh.NormalOf(face));
+      update(*sheet, this->Mesh.NormalOf(face));
     }
     else
     {
@@ -338,40 +335,40 @@ std::vector<InterfaceClearance::Sheet> InterfaceClearance::FindSheets(
 }
 
 bool InterfaceClearance::PassAny(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced) const
 {
-  std::vector<int> about;
-  const auto stays = [this](const PlacedFace& face, int k)
+  std::vector<int> atEdge;
+  const auto isFixed = [this](const FaceCoordinates& face, int k)
   {
-    const Vector& place = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
-    return SquaredDistance(face.Corner[k], VectorD(place)) == 0.;
+    const Vector& position = this->Mesh.Position[static_cast<std::size_t>(face.Vertex[k])];
+    return SquaredDistance(face.Corner[k], VectorD(position)) == 0.;
   };
-  for (const PlacedFace& face : faces)
+  for (const FaceCoordinates& face : faces)
   {
     for (int k = 0; k < 3; ++k)
     {
       const int u = face.Vertex[k];
       const int v = face.Vertex[(k + 1) % 3];
-      if (!stays(face, k) || !stays(face, (k + 1) % 3))
+      if (!isFixed(face, k) || !isFixed(face, (k + 1) % 3))
       {
         continue;
       }
-      this->Mesh.FindFaces(u, v, about);
+      this->Mesh.FindFaces(u, v, atEdge);
       const auto isReplaced = [&](int f)
       { return std::find(replaced.begin(), replaced.end(), f) != replaced.end(); };
-      const auto isIt = [&](int f)
+      const auto isPredecessor = [&](int f)
       {
         const InterfaceMesh::Face& old = this->Mesh.Faces[static_cast<std::size_t>(f)];
         return isReplaced(f) && old.Behind == face.Behind && old.Front == face.Front;
       };
-      const auto old = std::find_if(about.begin(), about.end(), isIt);
-      if (old == about.end())
+      const auto old = std::find_if(atEdge.begin(), atEdge.end(), isPredecessor);
+      if (old == atEdge.end())
       {
-        continue; // It is new.
+        continue; // The face has no predecessor at this edge.
       }
       const MeshTriangle before =
         TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(*old)].Vertex);
-      for (const int f : about)
+      for (const int f : atEdge)
       {
         const MeshTriangle other =
           TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
@@ -385,20 +382,18 @@ bool InterfaceClearance::PassAny(
   return false;
 }
 
-bool InterfaceClearance::IsAtLine(const PlacedFace& face) const
+bool InterfaceClearance::IsAtLine(const FaceCoordinates& face) const
 {
   return std::count_if(face.Vertex, face.Vertex + 3,
            [this](int v)
-           {
-             return this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface;
-           }) > 1;
+           { return this->Mesh.StratumOf[static_cast<std::size_t>(v)] != Stratum::Interface; }) > 1;
 }
 
 bool InterfaceClearance::AreInOrderAtLines(
-  const std::vector<PlacedFace>& faces, const std::vector<int>& others) const
+  const std::vector<FaceCoordinates>& faces, const std::vector<int>& others) const
 {
-  std::vector<PlacedFace> about;
-  for (const PlacedFace& face : faces)
+  std::vector<FaceCoordinates> atEdge;
+  for (const FaceCoordinates& face : faces)
   {
     for (int k = 0; k < 3; ++k)
     {
@@ -409,22 +404,23 @@ bool InterfaceClearance::AreInOrderAtLines(
       {
         continue;
       }
-      about.clear();
-      std::copy_if(faces.begin(), faces.end(), std::back_inserter(about),
-        [&](const PlacedFace& other) { return Has(other, u) && Has(other, v); });
+      atEdge.clear();
+      std::copy_if(faces.begin(), faces.end(), std::back_inserter(atEdge),
+        [&](const FaceCoordinates& other) { return Has(other, u) && Has(other, v); });
       for (const int other : others)
       {
-        const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
-        if (there.Has(u) && there.Has(v))
+        const InterfaceMesh::Face& existing = this->Mesh.Faces[static_cast<std::size_t>(other)];
+        if (existing.Has(u) && existing.Has(v))
         {
-          about.push_back(PlacedFaceOf(this->Mesh, there));
+          atEdge.push_back(FaceCoordinatesOf(this->Mesh, existing));
         }
       }
-      for (PlacedFace& placed : about)
+      for (FaceCoordinates& neighbour : atEdge)
       {
-        placed.Front = this->Mesh.IsSide(placed.Front) ? LabelMap::Number(0) : placed.Front;
+        neighbour.Front =
+          this->Mesh.IsSide(neighbour.Front) ? LabelMap::Number(0) : neighbour.Front;
       }
-      if (about.size() > 2 && !AreInOrder(u, v, about))
+      if (atEdge.size() > 2 && !AreInOrder(u, v, atEdge))
       {
         return false;
       }

@@ -16,48 +16,46 @@
 
 namespace volumic
 {
-/** Of the angle between the normals of one sheet and their mean: less than 84 degrees. */
+/** Least cosine between the normals of a sheet and their mean (84 degrees). */
 constexpr double LeastSheetCosine = 0.1;
 
-/** Corners of a triangle that there is not yet, and the vertices that they are. */
+/** Return the triangle of three vertices, which need not be a face of the mesh. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 
-/** A face that there is, or may be. */
-struct PlacedFace : MeshTriangle
+/** An existing or proposed face with its corner positions. */
+struct FaceCoordinates : MeshTriangle
 {
   LabelMap::Number Behind;
   LabelMap::Number Front;
 };
-PlacedFace PlacedFaceOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
+FaceCoordinates FaceCoordinatesOf(const InterfaceMesh& mesh, const InterfaceMesh::Face& face);
 
-/** What a triangle lies in. */
 Box BoxOf(const MeshTriangle& triangle);
 
-/** From the edge (u, v) of a triangle to its third corner, across the edge; no unit length. */
+/** Return the non-normalized vector from edge (u, v) to the third corner, normal to the edge. */
 VectorD AcrossEdge(const MeshTriangle& face, int u, int v);
 
 /**
- * Whether faces that share an edge are about it in the order that their objects want: what one has
- * on its one side the next one has on that side, too. Where one has been turned past another,
- * objects overlap, though nothing intersects.
+ * Return whether the faces at an edge are in a consistent cyclic order: consecutive faces agree on
+ * the object between them. If one face has been turned past another, objects overlap although no
+ * triangles intersect.
  */
-bool AreInOrder(int u, int v, const std::vector<PlacedFace>& faces);
+bool AreInOrder(int u, int v, const std::vector<FaceCoordinates>& faces);
 
 /**
- * Whether two faces at an edge have been turned past each other: a flat part passes through itself
- * so, and is inside out, though nothing intersects before nor afterwards.
+ * Return whether two faces at an edge have been turned past each other. A flat part is then inside
+ * out although no triangles intersect before or after the move.
  * @param u, v the edge
- * @param before, after the faces' corners; each of them turns by less than a right angle
+ * @param before, after the two faces; each of them turns by less than 90 degrees
  */
 bool HavePassed(int u, int v, const std::array<MeshTriangle, 2>& before,
   const std::array<MeshTriangle, 2>& after);
 
-/** What the boxes of faces are like. */
 struct FaceBoxes
 {
   Box All;
-  float Longest = 0.f; ///< side of a box
-  double Sides = 0.;   ///< sum of the longest side of each
+  float Longest = 0.f; ///< longest side
+  double Sides = 0.;   ///< sum of the longest sides of the boxes
   std::size_t Count = 0;
 
   double MeanSide() const
@@ -78,12 +76,12 @@ struct FaceBoxes
 
 float LongestSide(const Box& box);
 
-/** @param boxOf Box(int face), of each face that is there, called by threads */
+/** Return the statistics of all faces. @param boxOf Box(int face), called by several threads */
 template <typename BoxOfFace>
 FaceBoxes FindBoxes(
   const InterfaceMesh& mesh, std::size_t spanSize, Executor& executor, BoxOfFace&& boxOf)
 {
-  std::vector<FaceBoxes> ofSpans((mesh.Faces.size() + spanSize - 1) / spanSize);
+  std::vector<FaceBoxes> perSpan((mesh.Faces.size() + spanSize - 1) / spanSize);
   ForSpans(executor, mesh.Faces.size(), spanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -93,63 +91,64 @@ FaceBoxes FindBoxes(
         {
           const Box box = boxOf(static_cast<int>(f));
           const float side = LongestSide(box);
-          ofSpans[span].Add({ box, side, side, 1 });
+          perSpan[span].Add({ box, side, side, 1 });
         }
       }
     });
   FaceBoxes all;
-  for (const FaceBoxes& some : ofSpans)
+  for (const FaceBoxes& some : perSpan)
   {
     all.Add(some);
   }
   return all;
 }
 
-/** Which triangles of interfaces are near others, and whether they intersect them. */
+/** Spatial search structure of interface triangles for proximity and intersection tests. */
 class InterfaceClearance
 {
 public:
   /**
-   * @param mesh must outlive it
-   * @param tolerance triangles nearer than that count as intersecting
+   * @param mesh must outlive this object
+   * @param tolerance triangles at a smaller distance count as intersecting
    */
   InterfaceClearance(const InterfaceMesh& mesh, double tolerance);
 
-  /** Lays its grid afresh. */
   void Reset(Executor& executor);
   /**
-   * To be called of each face that has another corner, a corner elsewhere, or is removed. Threads
-   * may do so at the same time, and ask about faces, if none finds what another one changes, nor
-   * something in the same cells of the grid; and if no edge becomes longer than was expected.
+   * Update a face after a change of its vertices or positions, or after its removal. Threads may
+   * call this and query faces concurrently if they access different faces and different cells of
+   * the grid, and if no edge becomes longer than ExpectEdges() states.
    */
   void Change(int face);
+  /** Set a lower bound for the search radius: half the longest edge that edits may create. */
   void ExpectEdges(float longest) { this->Reach = std::max(this->Reach, 0.5f * longest); }
 
-  /** Of a face that is there. */
   const Box& BoxOf(int face) const { return this->Boxes[static_cast<std::size_t>(face)]; }
-  /** Of all faces when the grid was laid. */
+  /** Return the bounding box of all faces at the last Reset(). */
   const Box& Bounds() const { return this->All; }
 
-  /** Faces whose boxes come near a box. */
+  /** Find the faces whose boxes are within the tolerance of a box. */
   void FindNear(const Box& box, std::vector<int>& near) const;
-  /** A face that this one intersects; -1: none. @param near room for it */
+  /** Return a face that intersects a face; -1: none. @param near scratch memory */
   int FindIntersecting(int face, std::vector<int>& near) const;
   /**
-   * Whether faces may take the place of some: they intersect nothing else, nor each other, are in
-   * order at junction lines, and pass nothing that they share an edge with. @param near room for it
+   * Return whether new faces may replace existing ones. They must not intersect each other or any
+   * other face, must be in consistent order at junction lines (AreInOrder), and must not pass a
+   * face at a common edge (HavePassed).
+   * @param near scratch memory
    */
-  bool AreClear(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced,
+  bool AreClear(const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced,
     std::vector<int>& near) const;
 
 private:
-  /** Faces between two objects that may come, and those near, also those that would go. */
+  /** The faces between two objects: the new ones and all near ones, replaced ones included. */
   struct Sheet
   {
     LabelMap::Number Behind;
     LabelMap::Number Front;
     VectorD Along;
-    bool IsOne = true;   ///< They all face about one way, see FindCrossings: none intersects others.
-    bool IsAlone = true; ///< None near is between other objects.
+    bool IsOne = true;   ///< All normals are similar, so that none intersect (FindCrossings).
+    bool IsAlone = true; ///< No near face is between other objects.
 
     template <typename AnyFace>
     bool Has(const AnyFace& face) const
@@ -158,21 +157,21 @@ private:
     }
   };
   std::vector<Sheet> FindSheets(
-    const std::vector<PlacedFace>& faces, const std::vector<int>& near) const;
-  /** Whether one of its edges may be of a junction line. */
-  bool IsAtLine(const PlacedFace& face) const;
-  /** @param others faces that stay, among them all that share an edge with these */
+    const std::vector<FaceCoordinates>& faces, const std::vector<int>& near) const;
+  /** Return whether an edge of a face may be on a junction line. */
+  bool IsAtLine(const FaceCoordinates& face) const;
+  /** @param others near faces that stay, including all that share an edge with new faces */
   bool AreInOrderAtLines(
-    const std::vector<PlacedFace>& faces, const std::vector<int>& others) const;
+    const std::vector<FaceCoordinates>& faces, const std::vector<int>& others) const;
 
-  /** Whether one of these comes past a face that stays, about an edge that stays where it is. */
-  bool PassAny(const std::vector<PlacedFace>& faces, const std::vector<int>& replaced) const;
+  /** Return whether a new face has been turned past a face that stays, at an edge that stays. */
+  bool PassAny(const std::vector<FaceCoordinates>& faces, const std::vector<int>& replaced) const;
 
   const InterfaceMesh& Mesh;
   double Tolerance;
-  LargeVector<Box> Boxes; ///< of each face, which the grid has at its middle
-  Box All;                ///< of them when the grid was laid
-  float Reach = 0.f;              ///< half of the longest side of a box, at least
+  LargeVector<Box> Boxes; ///< box of each face; the grid stores the face at its middle
+  Box All;                ///< bounding box at the last Reset()
+  float Reach = 0.f;      ///< at least half of the longest side of all boxes
   VertexGrid Grid;
 };
 }

@@ -15,12 +15,10 @@ namespace volumic
 {
 namespace
 {
-/** Faces, or cubes, that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 2048;
-/** How wide cubes are, in the mean width of faces. */
+/** Edge length of a cube, in mean box sizes of the faces. */
 constexpr float CubeInFaces = 2.f;
-/** Cubes along an axis, at most. */
-constexpr int MostCubes = 1 << 20;
+constexpr int MostCubes = 1 << 20; ///< along an axis
 
 class CrossingFinder
 {
@@ -32,19 +30,20 @@ public:
 
   InterfaceCrossings Find()
   {
-    this->LayCubes();
+    this->SetUpCubes();
     const std::vector<std::vector<int>> layers = this->FindFacesOfLayers();
     std::vector<std::vector<std::array<int, 2>>> pairs(layers.size());
-    std::vector<std::vector<int>> doubtful(pairs.size());
+    std::vector<std::vector<int>> candidates(pairs.size());
     ForSpans(this->Threads, layers.size(), 1,
-      [&](std::size_t layer, std::size_t, std::size_t)
-      { this->LookAtLayer(static_cast<int>(layer), layers[layer], pairs[layer], doubtful[layer]); });
+      [&](std::size_t layer, std::size_t, std::size_t) {
+        this->TestLayer(static_cast<int>(layer), layers[layer], pairs[layer], candidates[layer]);
+      });
     InterfaceCrossings found;
     found.Pairs = Joined(this->Threads, pairs);
-    found.Doubtful = Joined(this->Threads, doubtful);
-    Sort(this->Threads, found.Doubtful);
-    found.Doubtful.erase(
-      std::unique(found.Doubtful.begin(), found.Doubtful.end()), found.Doubtful.end());
+    found.Candidates = Joined(this->Threads, candidates);
+    Sort(this->Threads, found.Candidates);
+    found.Candidates.erase(
+      std::unique(found.Candidates.begin(), found.Candidates.end()), found.Candidates.end());
     return found;
   }
 
@@ -59,7 +58,7 @@ private:
     return box;
   }
 
-  void LayCubes()
+  void SetUpCubes()
   {
     const FaceBoxes boxes = FindBoxes(
       this->Mesh, SpanSize, this->Threads, [this](int face) { return this->BoxOf(face); });
@@ -71,31 +70,29 @@ private:
     this->Count = { last[0] + 1, last[1] + 1, last[2] + 1 };
   }
 
-  /** The cube of a place, along each axis. */
-  std::array<int, 3> CubeOf(const Vector& place) const
+  std::array<int, 3> CubeOf(const Vector& position) const
   {
-    const Vector from = (place - this->Low) * this->PerCube;
+    const Vector from = (position - this->Low) * this->PerCube;
     return { std::max(static_cast<int>(from.X), 0), std::max(static_cast<int>(from.Y), 0),
       std::max(static_cast<int>(from.Z), 0) };
   }
 
-  /** The faces in each layer of cubes along z, sorted. */
   std::vector<std::vector<int>> FindFacesOfLayers() const
   {
     using LayersOfFace = std::array<int, 3>;
-    const auto ofFaces = CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(),
-      SpanSize,
-      [this](std::size_t f, std::vector<LayersOfFace>& some)
-      {
-        if (this->Mesh.Faces[f].IsThere())
+    const auto perFace =
+      CollectInSpans<LayersOfFace>(this->Threads, this->Mesh.Faces.size(), SpanSize,
+        [this](std::size_t f, std::vector<LayersOfFace>& some)
         {
-          const Box box = this->BoxOf(static_cast<int>(f));
-          some.push_back(
-            { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
-        }
-      });
+          if (this->Mesh.Faces[f].IsThere())
+          {
+            const Box box = this->BoxOf(static_cast<int>(f));
+            some.push_back(
+              { static_cast<int>(f), this->CubeOf(box.Low)[2], this->CubeOf(box.High)[2] });
+          }
+        });
     std::vector<std::vector<int>> faces(static_cast<std::size_t>(this->Count[2]));
-    for (const auto& [face, low, high] : ofFaces)
+    for (const auto& [face, low, high] : perFace)
     {
       for (int k = low; k <= high; ++k)
       {
@@ -105,11 +102,12 @@ private:
     return faces;
   }
 
-  void LookAtLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
-    std::vector<int>& doubtful) const
+  void TestLayer(int layer, const std::vector<int>& faces, std::vector<std::array<int, 2>>& pairs,
+    std::vector<int>& candidates) const
   {
-    // The faces of each cube, in one list: counted, then put there.
-    std::vector<std::size_t> first(static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
+    // Counting sort of the faces by cube.
+    std::vector<std::size_t> first(
+      static_cast<std::size_t>(this->Count[0]) * this->Count[1] + 1, 0);
     const auto forCubes = [&](const auto& visit)
     {
       for (const int f : faces)
@@ -136,15 +134,14 @@ private:
       if (first[cube + 1] > first[cube])
       {
         const int along = static_cast<int>(cube);
-        this->LookAt({ along % this->Count[0], along / this->Count[0], layer },
-          inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, doubtful);
+        this->TestCube({ along % this->Count[0], along / this->Count[0], layer },
+          inCubes.data() + first[cube], inCubes.data() + first[cube + 1], pairs, candidates);
       }
     }
   }
 
-  /** The faces of a cube. */
-  void LookAt(const std::array<int, 3>& cube, const int* first, const int* last,
-    std::vector<std::array<int, 2>>& pairs, std::vector<int>& doubtful) const
+  void TestCube(const std::array<int, 3>& cube, const int* first, const int* last,
+    std::vector<std::array<int, 2>>& pairs, std::vector<int>& candidates) const
   {
     if (this->AreOneSheet(first, last))
     {
@@ -152,7 +149,7 @@ private:
     }
     for (const int* f = first; f != last; ++f)
     {
-      doubtful.push_back(*f);
+      candidates.push_back(*f);
       const Box box = this->BoxOf(*f);
       const MeshTriangle triangle = this->TriangleAt(*f);
       for (const int* g = f + 1; g != last; ++g)
@@ -162,7 +159,7 @@ private:
         {
           continue;
         }
-        // In the first cube that both are in.
+        // Test each pair once: in the first cube that both faces overlap.
         if (this->CubeOf(box.Within(other).Low) == cube &&
           TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
         {

@@ -11,19 +11,18 @@
 
 namespace volumic
 {
-/** What FindCrossings() has found. */
 struct InterfaceCrossings
 {
-  std::vector<std::array<int, 2>> Pairs; ///< of faces that intersect
-  std::vector<int> Doubtful;             ///< faces that are not in one sheet with all near, sorted
+  std::vector<std::array<int, 2>> Pairs; ///< pairs of intersecting faces
+  std::vector<int> Candidates;           ///< sorted faces in cubes with more than one sheet
 };
 
 /**
- * All pairs of faces that intersect. Space is cut into cubes, a few edges wide. Where the faces in a
- * cube are all between the same two objects, and face about one way, a line that way passes at most
- * one of them: between two that face alike there is one that faces the other way, unless one has
- * been turned over, which is to be looked at before. Only elsewhere pairs are tested.
- * @param tolerance triangles nearer than that count as intersecting
+ * Find all pairs of intersecting faces. Pairs are tested in cubes of a few edge lengths. A cube is
+ * skipped if its faces form one sheet: they separate the same two objects and have similar normals.
+ * A line along the mean normal then crosses at most one of them, unless faces are inverted. Callers
+ * must reject inverted faces before.
+ * @param tolerance triangles at a smaller distance count as intersecting
  */
 InterfaceCrossings FindCrossings(const InterfaceMesh& mesh, double tolerance, Executor& executor);
 }

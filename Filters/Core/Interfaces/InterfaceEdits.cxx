@@ -13,17 +13,16 @@ namespace volumic
 {
 namespace
 {
-/** Cosine of the angle between two faces whose edge is flipped. */
+/** Least cosine between the normals of two faces whose edge is flipped. */
 constexpr double LeastFlatCosine = 0.85;
-/** The same of two faces of which one is a sliver. */
-constexpr double LeastSliverCosine = 0.5;
-/** Triangles worse than that, by RadiusRatio(), are made of worse ones only. */
+constexpr double LeastSliverCosine = 0.5; ///< the same if one of the faces is a sliver
+/** A collapse creates triangles of a smaller RadiusRatio() only if the old ones were worse. */
 constexpr double LeastRatio = 0.3;
-/** Those are slivers, by the same. */
-constexpr double MostSliver = 0.15;
-/** Triangles with no smaller angle are good enough, radian. */
-constexpr double MostFlipped = 0.8;
-/** By how much a flip must make the smallest angle larger, radian. */
+/** RadiusRatio() below which the normal of a triangle is unreliable. */
+constexpr double SliverRatio = 0.15;
+/** Flips are tried for triangles with a smaller angle, in radians. */
+constexpr double LeastGoodAngle = 0.8;
+/** Least increase of the smallest angle by a flip, in radians. */
 constexpr double LeastGain = 0.02;
 }
 
@@ -106,7 +105,7 @@ bool InterfaceEdits::MayCollapse(int u, int v)
   const bool isOnLine = this->Mesh.IsLine(this->AtEdge);
   if (isOnLine != (lower != Stratum::Interface))
   {
-    return false; // Two lines would meet, or a vertex leave its own.
+    return false; // Two junction lines would meet, or a vertex would leave its line.
   }
   if (lower == Stratum::Corner && !this->ShareObjects(u, v))
   {
@@ -175,15 +174,16 @@ bool InterfaceEdits::TryCollapse(int u, int v)
   {
     return false;
   }
-  const Vector place = this->Mesh.Position[static_cast<std::size_t>(kept)];
+  const Vector position = this->Mesh.Position[static_cast<std::size_t>(kept)];
   const Vector other = this->Mesh.Position[static_cast<std::size_t>(removed)];
-  const bool isAlike = rankOf(kept).first == rankOf(removed).first;
-  const std::array<Vector, 3> places = { isAlike ? (place + other) * 0.5f : place, place, other };
-  // What is made is looked at first: it is the least work, and what most are refused for.
+  const bool isSameStratum = rankOf(kept).first == rankOf(removed).first;
+  const std::array<Vector, 3> positions = { isSameStratum ? (position + other) * 0.5f : position,
+    position, other };
+  // Test the quality of the new faces first: it is the cheapest test and rejects most collapses.
   bool isAllowed = false;
-  for (std::size_t n = 0; n < (isAlike ? places.size() : 1); ++n)
+  for (std::size_t n = 0; n < (isSameStratum ? positions.size() : 1); ++n)
   {
-    if (!this->AreFairCollapses(places[n]))
+    if (!this->AreFairCollapses(positions[n]))
     {
       continue;
     }
@@ -194,7 +194,7 @@ bool InterfaceEdits::TryCollapse(int u, int v)
     }
     if (this->Clearance.AreClear(this->Made, this->Changed, this->Near))
     {
-      this->CollapseImages(places[n]);
+      this->CollapseImages(positions[n]);
       return true;
     }
   }
@@ -212,19 +212,19 @@ bool InterfaceEdits::MayCollapseImages()
     });
 }
 
-Vector InterfaceEdits::PlaceOfImage(std::size_t image, const Vector& place) const
+Vector InterfaceEdits::PositionOfImage(std::size_t image, const Vector& position) const
 {
-  return image == 0 ? place : this->Mesh.OnSides(this->Images[image][0], place);
+  return image == 0 ? position : this->Mesh.ProjectToSides(this->Images[image][0], position);
 }
 
-bool InterfaceEdits::AreFairCollapses(const Vector& place)
+bool InterfaceEdits::AreFairCollapses(const Vector& position)
 {
   this->Made.clear();
   this->Changed.clear();
   for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
     const std::array<int, 2>& edge = this->Images[n];
-    if (!this->IsFairCollapse(this->PlaceOfImage(n, place), edge[0], edge[1]))
+    if (!this->IsFairCollapse(this->PositionOfImage(n, position), edge[0], edge[1]))
     {
       return false;
     }
@@ -232,12 +232,12 @@ bool InterfaceEdits::AreFairCollapses(const Vector& place)
   return true;
 }
 
-void InterfaceEdits::CollapseImages(const Vector& place)
+void InterfaceEdits::CollapseImages(const Vector& position)
 {
   for (std::size_t n = 0; n < this->Images.size(); ++n)
   {
     const std::array<int, 2>& edge = this->Images[n];
-    this->Collapse(this->PlaceOfImage(n, place), edge[0], edge[1]);
+    this->Collapse(this->PositionOfImage(n, position), edge[0], edge[1]);
   }
   for (const int f : this->Changed)
   {
@@ -245,17 +245,17 @@ void InterfaceEdits::CollapseImages(const Vector& place)
   }
 }
 
-bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
+bool InterfaceEdits::IsFairCollapse(const Vector& position, int kept, int removed)
 {
   const auto firstMade = static_cast<std::ptrdiff_t>(this->Made.size());
   for (const int v : { kept, removed })
   {
-    if (SquaredDistance(this->Mesh.OnSides(v, place), place) > 0.f)
+    if (SquaredDistance(this->Mesh.ProjectToSides(v, position), position) > 0.f)
     {
       return false; // A face would leave its side of the box.
     }
   }
-  if (this->MakesLongEdges(place, kept, removed))
+  if (this->MakesLongEdges(position, kept, removed))
   {
     return false;
   }
@@ -271,7 +271,7 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         {
           return;
         }
-        const PlacedFace before = PlacedFaceOf(this->Mesh, face);
+        const FaceCoordinates before = FaceCoordinatesOf(this->Mesh, face);
         const double ratio = RadiusRatio(before);
         worst = std::min(worst, ratio);
         this->Changed.push_back(f);
@@ -279,13 +279,13 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
         {
           return;
         }
-        PlacedFace after = before;
+        FaceCoordinates after = before;
         const auto k = std::find(after.Vertex, after.Vertex + 3, v) - after.Vertex;
         after.Vertex[k] = kept;
-        after.Corner[k] = VectorD(place);
-        // The normals of slivers say nothing.
+        after.Corner[k] = VectorD(position);
+        // The normals of slivers are unreliable.
         isFair =
-          ratio < MostSliver || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
+          ratio < SliverRatio || CosineOf(NormalOf(before), NormalOf(after)) > LeastTurnCosine;
         this->Made.push_back(after);
       });
     if (!isFair)
@@ -298,12 +298,12 @@ bool InterfaceEdits::IsFairCollapse(const Vector& place, int kept, int removed)
     [least](const MeshTriangle& triangle) { return RadiusRatio(triangle) >= least; });
 }
 
-bool InterfaceEdits::MakesLongEdges(const Vector& place, int kept, int removed) const
+bool InterfaceEdits::MakesLongEdges(const Vector& position, int kept, int removed) const
 {
-  // Short edges at corners bend lines: rather longer ones for a while, which are split elsewhere.
+  // Short edges at junction points bend lines. Allow longer edges instead, which are split later.
   const double longest = this->Longest *
     (this->Mesh.StratumOf[static_cast<std::size_t>(kept)] == Stratum::Corner
-        ? CornerSlack * CornerSlack
+        ? CornerFactor * CornerFactor
         : 1.);
   bool isLong = false;
   for (const int v : { kept, removed })
@@ -316,14 +316,15 @@ bool InterfaceEdits::MakesLongEdges(const Vector& place, int kept, int removed) 
           const Vector& end = this->Mesh.Position[static_cast<std::size_t>(w)];
           isLong = isLong ||
             (w != kept && w != removed &&
-              SquaredDistance(VectorD(end), VectorD(place)) > longest * this->SquaredSize(kept, w));
+              SquaredDistance(VectorD(end), VectorD(position)) >
+                longest * this->SquaredSize(kept, w));
         }
       });
   }
   return isLong;
 }
 
-void InterfaceEdits::Collapse(const Vector& place, int kept, int removed)
+void InterfaceEdits::Collapse(const Vector& position, int kept, int removed)
 {
   for (const int f : this->Changed)
   {
@@ -337,15 +338,15 @@ void InterfaceEdits::Collapse(const Vector& place, int kept, int removed)
       this->Mesh.ReplaceVertex(f, removed, kept);
     }
   }
-  this->Mesh.Position[static_cast<std::size_t>(kept)] = place;
+  this->Mesh.Position[static_cast<std::size_t>(kept)] = position;
 }
 
 int InterfaceEdits::FlipAt(int face)
 {
   const std::array<int, 3> v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
-  if (SmallestAngle(TriangleOf(this->Mesh, v)) > MostFlipped)
+  if (SmallestAngle(TriangleOf(this->Mesh, v)) > LeastGoodAngle)
   {
-    return 0; // From the worse one of two it is tried, if one is bad.
+    return 0; // The flip is tried from the worse of the two faces.
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -366,9 +367,8 @@ bool InterfaceEdits::RemoveSliver(int face)
   }
   std::array<int, 3> order = { 0, 1, 2 };
   std::sort(order.begin(), order.end(),
-    [&](int a, int b) {
-      return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]);
-    });
+    [&](int a, int b)
+    { return this->SquaredEdge(v[a], v[(a + 1) % 3]) < this->SquaredEdge(v[b], v[(b + 1) % 3]); });
   const int shortest = order[0];
   const int longest = order[2];
   return this->TryFlip(v[longest], v[(longest + 1) % 3], LeastSliverCosine) ||
@@ -425,7 +425,8 @@ bool InterfaceEdits::IsFairFlip(int u, int v, double flatness)
     TriangleOf(this->Mesh, second.Vertex) };
   std::replace(first.Vertex.begin(), first.Vertex.end(), v, q);
   std::replace(second.Vertex.begin(), second.Vertex.end(), u, p);
-  const PlacedFace after[2] = { PlacedFaceOf(this->Mesh, first), PlacedFaceOf(this->Mesh, second) };
+  const FaceCoordinates after[2] = { FaceCoordinatesOf(this->Mesh, first),
+    FaceCoordinatesOf(this->Mesh, second) };
   if (std::min(SmallestAngle(after[0]), SmallestAngle(after[1])) <
     std::min(SmallestAngle(before[0]), SmallestAngle(before[1])) + LeastGain)
   {

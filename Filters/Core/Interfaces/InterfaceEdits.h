@@ -13,64 +13,61 @@
 namespace volumic
 {
 /**
- * Edits of interfaces that keep what meets where: junction lines and points stay, and each object's
- * surface keeps its topology. None makes triangles intersect: each is tried by itself.
+ * Local edits of interfaces. They preserve junction lines and points and the topology of the
+ * surface of each object. Each edit is verified before it is made, so that no triangles intersect.
  *
- * - Splits are at the middle of an edge, of all faces at it.
- * - Collapses take a vertex into another of its stratum, or of a higher one: from an interface into
- *   anything, along a junction line into one of its vertices, or its end. Vertices that have both
- *   ends as neighbours must be those of the faces at the edge (the link condition), and at most one
- *   edge of these faces may be of a junction line. Two junction points must have no object in
- *   common but those at their edge.
- * - Flips are between two faces of the same objects.
- * - In the sides of a periodic box all images of an edge or vertex are edited, or none is.
+ * - A split inserts a vertex at the middle of an edge and splits all faces at the edge.
+ * - A collapse merges a vertex into another one of the same or a higher stratum. A vertex of a
+ *   junction line is merged along this line only. The link condition must hold: all common
+ *   neighbours of both vertices are in faces at the edge. At most one edge of these faces may be on
+ *   a junction line. Two junction points must not share an object that is not at their edge.
+ * - A flip replaces the common edge of two faces between the same objects.
+ * - In the sides of a periodic box, either all images of an edge or vertex are edited, or none.
  */
 class InterfaceEdits
 {
 public:
-  /** Of edges at corners, by how much they may be longer than others for a while. */
-  static constexpr double CornerSlack = 4. / 3.;
+  /** Factor by which edges at junction points may temporarily exceed the maximum length. */
+  static constexpr double CornerFactor = 4. / 3.;
 
   /**
-   * @param clearance of the mesh as it is, for all edits but splits, which change nothing for
-   * anybody
-   * @param shortest, longest between which edges are wanted, times the mesh's sizes; lengths of the
-   *                  workspace
+   * @param clearance of the current mesh; not used by splits
+   * @param shortest, longest as for InterfaceRemesher
    */
   InterfaceEdits(
     InterfaceMesh& mesh, InterfaceClearance& clearance, double shortest, double longest);
 
-  /** Of the longest edge of a face that is there, if it is too long. */
+  /** Split the longest edge of an existing face if it is too long. */
   bool TrySplit(int face);
-  /** Of all short edges of a face. @return how many were collapsed */
+  /** Collapse the short edges of a face. @return number of collapses */
   int CollapseAt(int face);
-  /** Of one edge of a face that is there. @return how many were flipped */
+  /** Flip at most one edge of an existing face. @return number of flips */
   int FlipAt(int face);
-  /** Of a triangle with a small angle the longest edge is flipped, or the shortest collapsed. */
+  /** Flip the longest edge of a triangle with a small angle, or collapse the shortest edge. */
   bool RemoveSliver(int face);
 
 private:
   bool MayCollapse(int u, int v);
-  /** Whether objects that are at both ends of the edge, AtEdge, are beside it: none is pinched. */
+  /** Return whether all objects common to u and v are at AtEdge, so that none is pinched. */
   bool ShareObjects(int u, int v);
-  /** With the vertex in the middle, where both are alike, or at either end. */
+  /** Collapse an edge to its middle if both vertices have the same stratum, otherwise to an end. */
   bool TryCollapse(int u, int v);
-  /** Of all Images of the edge: whether it may, at a place would be fair, and to that. */
+  // The next three functions handle all Images of the edge.
   bool MayCollapseImages();
-  bool AreFairCollapses(const Vector& place);
-  void CollapseImages(const Vector& place);
-  /** Where the vertex that an image keeps is, if that of the first one is at a place. */
-  Vector PlaceOfImage(std::size_t image, const Vector& place) const;
-  /** Adds what the faces of both would be to Made, and which these are to Changed. */
-  bool IsFairCollapse(const Vector& place, int kept, int removed);
-  bool MakesLongEdges(const Vector& place, int kept, int removed) const;
-  void Collapse(const Vector& place, int kept, int removed);
-  /** @param flatness cosine of the angle that there may be between the faces */
+  bool AreFairCollapses(const Vector& position);
+  void CollapseImages(const Vector& position);
+  /** Return the position of the kept vertex of an image, given that of the first image. */
+  Vector PositionOfImage(std::size_t image, const Vector& position) const;
+  /** Test the quality of a collapse; append changed faces to Changed and new ones to Made. */
+  bool IsFairCollapse(const Vector& position, int kept, int removed);
+  bool MakesLongEdges(const Vector& position, int kept, int removed) const;
+  void Collapse(const Vector& position, int kept, int removed);
+  /** @param flatness least cosine of the angle between the normals of the faces */
   bool TryFlip(int u, int v, double flatness);
-  /** Adds the faces to Changed, and what they would be to Made. */
+  /** Test the quality of a flip; append changed faces to Changed and new ones to Made. */
   bool IsFairFlip(int u, int v, double flatness);
   void Split(int u, int v);
-  int SplitOne(int u, int v); ///< the vertex that it adds
+  int SplitOne(int u, int v); ///< Split one image. @return the new vertex
   float SquaredEdge(int u, int v) const
   {
     return SquaredDistance(this->Mesh.Position[static_cast<std::size_t>(u)],
@@ -82,21 +79,21 @@ private:
     return size * size;
   }
 
-  /** Cosine of the angle by which an edit may turn a face. */
+  /** Least cosine of the angle by which an edit may turn a face. */
   static constexpr double LeastTurnCosine = 0.4;
 
   InterfaceMesh& Mesh;
   InterfaceClearance& Clearance;
-  float Shortest; ///< squared, where sizes are 1
-  float Longest;  ///< squared, where sizes are 1
+  float Shortest; ///< squared length at size 1
+  float Longest;  ///< squared length at size 1
   std::vector<int> AtEdge;
   std::vector<int> Changed;
-  std::vector<std::array<int, 2>> Images; ///< of the edge, that which is kept first, or the vertex
+  std::vector<std::array<int, 2>> Images; ///< images of the edge, the kept vertex first
   std::vector<int> Near;
   std::vector<int> First;
   std::vector<int> Second;
-  std::vector<int> Common; ///< of these two
-  std::vector<PlacedFace> Made;
+  std::vector<int> Common; ///< intersection of First and Second
+  std::vector<FaceCoordinates> Made;
 };
 }
 

@@ -15,13 +15,12 @@ namespace volumic
 {
 namespace
 {
-/** One of so many is a large part. */
+/** An object with more than 1 / LargePart of the remaining bricks is processed by all threads. */
 constexpr std::int64_t LargePart = 8;
 
-/** Bricks beyond a part in which its field is made, too: further than the Gaussian reaches. */
-constexpr int PartMargin = 6;
+constexpr int PartMargin = 6; ///< bricks around a part, more than the reach of the Gaussian
 
-/** Calls visit(i, j, k) for the bricks within some that have voxels of a set. */
+/** Call visit(i, j, k) for the bricks in a range that contain voxels of a set. */
 template <typename Visitor>
 void ForBricks(const VoxelBits& voxels, const VoxelBox& within, Visitor&& visit)
 {
@@ -54,11 +53,11 @@ void ForBricks(const VoxelBits& voxels, const VoxelBox& within, Visitor&& visit)
 
 InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
   const std::array<double, 3>& step, Executor& executor,
-  const std::function<bool(double share)>& goOn, bool isPeriodic)
+  const std::function<bool(double fraction)>& progress, bool isPeriodic)
   : Map(bricks), Lengths(step), IsPeriodic(isPeriodic)
 {
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
-  // The largest first, as none should be waited for at the end.
+  // Largest objects first, for load balancing.
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
@@ -67,38 +66,39 @@ InterfaceFields::InterfaceFields(const LabelBricks& bricks, const LabelFieldOpti
   this->Shifts.assign(count, 0.f);
   std::vector<std::vector<Part>> parts(count);
   std::atomic<std::size_t> done{ 0 };
-  std::atomic<bool> goesOn{ true };
+  std::atomic<bool> isRunning{ true };
   const std::int64_t most = 8 * static_cast<std::int64_t>(std::pow(options.PartSize, 3));
   const auto make = [&](int object, Executor& threads)
   {
-    if (goesOn && bricks.ExtentOf(object).Voxels > 0)
+    if (isRunning && bricks.ExtentOf(object).Voxels > 0)
     {
       const VoxelBox box = bricks.ExtentOf(object).Bricks.Grown(1);
       for (const VoxelBox& within :
         box.Count() > most ? box.Parts(options.PartSize) : std::vector<VoxelBox>{ box })
       {
-        if (goesOn)
+        if (isRunning)
         {
-          parts[static_cast<std::size_t>(object)].push_back(this->PartOf(within,
-            MakeLabelField(bricks, object, options, threads, within.Grown(PartMargin))));
+          parts[static_cast<std::size_t>(object)].push_back(this->PartOf(
+            within, MakeLabelField(bricks, object, options, threads, within.Grown(PartMargin))));
         }
       }
     }
-    if (!goOn(static_cast<double>(++done) / static_cast<double>(count)))
+    if (!progress(static_cast<double>(++done) / static_cast<double>(count)))
     {
-      goesOn = false;
+      isRunning = false;
     }
   };
-  std::int64_t rest = 0;
+  std::int64_t remaining = 0;
   for (const int object : order)
   {
-    rest += bricks.ExtentOf(object).Bricks.Count();
+    remaining += bricks.ExtentOf(object).Bricks.Count();
   }
-  // Those that are a large part of what is left by all threads, the others side by side.
+  // Objects that are a large part of the remaining work use all threads, others one thread each.
   std::size_t first = 0;
-  for (; first < count && LargePart * bricks.ExtentOf(order[first]).Bricks.Count() > rest; ++first)
+  for (; first < count && LargePart * bricks.ExtentOf(order[first]).Bricks.Count() > remaining;
+       ++first)
   {
-    rest -= bricks.ExtentOf(order[first]).Bricks.Count();
+    remaining -= bricks.ExtentOf(order[first]).Bricks.Count();
     make(order[first], executor);
   }
   ForSpans(executor, count - first, 1,
@@ -131,9 +131,9 @@ InterfaceFields::Part InterfaceFields::PartOf(const VoxelBox& within, const Labe
 void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
 {
   this->First.assign(static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).Count()) + 1, 0);
-  for (const std::vector<Part>& ofObject : parts)
+  for (const std::vector<Part>& objectParts : parts)
   {
-    for (const Part& part : ofObject)
+    for (const Part& part : objectParts)
     {
       for (const std::size_t brick : part.Bricks)
       {
@@ -142,7 +142,7 @@ void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
     }
   }
   std::partial_sum(this->First.begin(), this->First.end(), this->First.begin());
-  this->OfBricks.resize(this->First.back());
+  this->BrickEntries.resize(this->First.back());
   std::vector<std::size_t> next(this->First.begin(), this->First.end() - 1);
   for (std::size_t object = 0; object < parts.size(); ++object)
   {
@@ -152,7 +152,7 @@ void InterfaceFields::Join(std::vector<std::vector<Part>>& parts)
       float* values = this->Values.back().data();
       for (const std::size_t brick : part.Bricks)
       {
-        this->OfBricks[next[brick]++] = { values, static_cast<LabelMap::Number>(object) };
+        this->BrickEntries[next[brick]++] = { values, static_cast<LabelMap::Number>(object) };
         values += VoxelsOfBrick;
       }
     }
@@ -163,9 +163,9 @@ float* InterfaceFields::ValuesIn(std::size_t brick, int object) const
 {
   for (std::size_t n = this->First[brick]; n < this->First[brick + 1]; ++n)
   {
-    if (this->OfBricks[n].Object == object)
+    if (this->BrickEntries[n].Object == object)
     {
-      return this->OfBricks[n].Values;
+      return this->BrickEntries[n].Values;
     }
   }
   return nullptr;
@@ -179,20 +179,20 @@ float InterfaceFields::At(int object, int x, int y, int z) const
   {
     return this->Map.Map().At(i, j, k) == object ? LabelField::Far : -LabelField::Far;
   }
-  return values[PlaceInBrick(i, j, k)];
+  return values[IndexInBrick(i, j, k)];
 }
 
 void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by)
 {
   const LabelMap& map = this->Map.Map();
   const LabelMap::Number own = map.At(voxel[0], voxel[1], voxel[2]);
-  const auto add = [&](const std::array<int, 3>& place, float size)
+  const auto add = [&](const std::array<int, 3>& position, float size)
   {
-    const std::array<int, 3> at = this->SourceOf(place);
+    const std::array<int, 3> at = this->SourceOf(position);
     const std::size_t brick = this->NumberOfBrick(at[0] / Side, at[1] / Side, at[2] / Side);
     if (float* values = this->ValuesIn(brick, object))
     {
-      values[PlaceInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
+      values[IndexInBrick(at[0], at[1], at[2])] += own == object ? size : -size;
     }
   };
   add(voxel, by);
@@ -210,17 +210,17 @@ void InterfaceFields::Push(int object, const std::array<int, 3>& voxel, float by
   }
 }
 
-InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& place) const
+InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& position) const
 {
   const std::array<int, 3>& size = this->Map.Map().Size();
-  const float places[3] = { place.X, place.Y, place.Z };
+  const float coordinates[3] = { position.X, position.Y, position.Z };
   int low[3];
-  float share[3];
+  float fraction[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float at = places[axis] / static_cast<float>(this->Lengths[axis]);
+    const float at = coordinates[axis] / static_cast<float>(this->Lengths[axis]);
     low[axis] = std::clamp(static_cast<int>(std::floor(at)), 0, size[axis] - 2);
-    share[axis] = at - static_cast<float>(low[axis]);
+    fraction[axis] = at - static_cast<float>(low[axis]);
   }
   float corner[2][2][2];
   const VoxelBox& inside = this->Map.Inside();
@@ -245,24 +245,24 @@ InterfaceFields::Sample InterfaceFields::Interpolate(int object, const Vector& p
     }
   }
   const auto between = [](float first, float last, float t) { return first + t * (last - first); };
-  float row[2][2];   // by z and y
-  float along[2][2]; // its derivative by x
+  float row[2][2];   // interpolated along x, by z and y
+  float along[2][2]; // derivative of row with respect to x
   for (int c = 0; c < 2; ++c)
   {
     for (int b = 0; b < 2; ++b)
     {
-      row[c][b] = between(corner[c][b][0], corner[c][b][1], share[0]);
+      row[c][b] = between(corner[c][b][0], corner[c][b][1], fraction[0]);
       along[c][b] = corner[c][b][1] - corner[c][b][0];
     }
   }
-  const float layer[2] = { between(row[0][0], row[0][1], share[1]),
-    between(row[1][0], row[1][1], share[1]) };
+  const float layer[2] = { between(row[0][0], row[0][1], fraction[1]),
+    between(row[1][0], row[1][1], fraction[1]) };
   Sample sample;
   sample.Value =
-    between(layer[0], layer[1], share[2]) + this->Shifts[static_cast<std::size_t>(object)];
-  const float x = between(between(along[0][0], along[0][1], share[1]),
-    between(along[1][0], along[1][1], share[1]), share[2]);
-  const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], share[2]);
+    between(layer[0], layer[1], fraction[2]) + this->Shifts[static_cast<std::size_t>(object)];
+  const float x = between(between(along[0][0], along[0][1], fraction[1]),
+    between(along[1][0], along[1][1], fraction[1]), fraction[2]);
+  const float y = between(row[0][1] - row[0][0], row[1][1] - row[1][0], fraction[2]);
   sample.Gradient =
     Vector(x / static_cast<float>(this->Lengths[0]), y / static_cast<float>(this->Lengths[1]),
       (layer[1] - layer[0]) / static_cast<float>(this->Lengths[2]));

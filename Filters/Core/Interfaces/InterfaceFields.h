@@ -17,31 +17,31 @@
 namespace volumic
 {
 /**
- * The fields of all objects of a label map, in the bricks about their boundaries. A place belongs
- * to the object whose field is the largest there, and the interface of two objects is where their
- * fields are the same: they cover space without gap or overlap, whatever the fields are. At the
- * centres of voxels that is what the map says, as each field has the right sign there.
- *
- * Object 0, what is about all others, is one of them.
+ * The fields of all objects of a label map, stored in the bricks near their boundaries. A position
+ * belongs to the object with the largest field value. The interface of two objects is the set of
+ * positions with equal field values, so that objects cover space without gaps or overlaps. At voxel
+ * centres each field has the correct sign, so that the fields reproduce the map. The background,
+ * object 0, has a field as well.
  */
 class InterfaceFields
 {
 public:
   /**
-   * @param step       lengths of a voxel in the workspace
-   * @param isPeriodic beyond the box in which voxels are counted its other end follows
-   * @param goOn told the share that is done, on any thread; after false what there is is of no use
+   * @param step       size of a voxel in computational space
+   * @param progress   callback with the completed fraction, called on any thread. Returns false to
+   *                   cancel; the fields are then incomplete.
+   * @param isPeriodic whether the box in which voxels are counted is repeated periodically
    */
   InterfaceFields(const LabelBricks& bricks, const LabelFieldOptions& options,
     const std::array<double, 3>& step, Executor& executor,
-    const std::function<bool(double share)>& goOn, bool isPeriodic = false);
+    const std::function<bool(double fraction)>& progress, bool isPeriodic = false);
 
   const LabelBricks& Bricks() const { return this->Map; }
   const std::array<double, 3>& Step() const { return this->Lengths; }
-  /** Whether objects end at the box in which voxels are counted, and not in what is about it. */
+  /** Return whether objects end at the sides of the box in which voxels are counted. */
   bool HaveBox() const { return !(this->Map.Inside() == VoxelBox::Of(this->Map.Map().Size())); }
   bool ArePeriodic() const { return this->IsPeriodic; }
-  /** That in the box whose values a voxel has: another one only where fields are periodic. */
+  /** Return the voxel that stores the values of a voxel: another one if fields are periodic. */
   std::array<int, 3> SourceOf(std::array<int, 3> voxel) const
   {
     for (int axis = 0; axis < 3 && this->IsPeriodic; ++axis)
@@ -51,38 +51,38 @@ public:
     return voxel;
   }
 
-  /** The field of an object at a voxel of the map; far from its boundary +-LabelField::Far. */
+  /** Return the field of an object at a voxel; +-LabelField::Far where no values are stored. */
   float At(int object, int i, int j, int k) const;
 
-  /** The field between the voxels, and its gradient by the lengths of the workspace. */
+  /** Trilinear interpolation of a field, and its gradient in computational space. */
   struct Sample
   {
     float Value;
     Vector Gradient;
   };
-  Sample Interpolate(int object, const Vector& place) const;
-  float ValueAt(int object, const Vector& place) const
+  Sample Interpolate(int object, const Vector& position) const;
+  float ValueAt(int object, const Vector& position) const
   {
-    return this->Interpolate(object, place).Value;
+    return this->Interpolate(object, position).Value;
   }
 
-  /** Half of what one object's field is more than another one's: 0 on their interface. */
-  Sample Between(int object, int other, const Vector& place) const
+  /** Return half the difference of the fields of two objects, which is 0 on their interface. */
+  Sample Between(int object, int other, const Vector& position) const
   {
-    const Sample a = this->Interpolate(object, place);
-    const Sample b = this->Interpolate(other, place);
+    const Sample a = this->Interpolate(object, position);
+    const Sample b = this->Interpolate(other, position);
     return { 0.5f * (a.Value - b.Value), (a.Gradient - b.Gradient) * 0.5f };
   }
 
   /**
-   * Takes the field of an object further from 0 at a voxel, and half as much at those of the same
-   * object as it beside it, so that no sign changes: where triangles have cut the voxel off.
+   * Increase the absolute value of the field of an object at a voxel, and by half as much at the
+   * face neighbours with the same label. No sign changes. Used at voxels that triangles cut off.
    */
   void Push(int object, const std::array<int, 3>& voxel, float by);
 
   /**
-   * Adds a number to the whole field of an object, between the voxels; all of these together stay
-   * within MostShift, and what faces may be off.
+   * Add a constant to the interpolated field of an object. The sum of all shifts is clamped to
+   * MostShift plus the tolerance of faces.
    */
   void Shift(int object, float by, float tolerance = 0.f)
   {
@@ -92,7 +92,7 @@ public:
   }
 
 private:
-  static constexpr float MostShift = 3.f; ///< smallest distances of voxels
+  static constexpr float MostShift = 3.f; ///< in the smallest voxel spacing
   static constexpr int Side = LabelBricks::Side;
   static constexpr std::size_t VoxelsOfBrick = static_cast<std::size_t>(Side) * Side * Side;
 
@@ -100,20 +100,20 @@ private:
   {
     return static_cast<std::size_t>(VoxelBox::Of(this->Map.Size()).NumberOf(i, j, k));
   }
-  static std::size_t PlaceInBrick(int i, int j, int k)
+  static std::size_t IndexInBrick(int i, int j, int k)
   {
     return static_cast<std::size_t>(((k % Side) * Side + j % Side) * Side + i % Side);
   }
-  /** The bricks that a part of a map has of an object, and their values, x fastest. */
+  /** Bricks of an object in a part of the map, and their values, x fastest. */
   struct Part
   {
     std::vector<std::size_t> Bricks;
     LargeVector<float> Values;
   };
   Part PartOf(const VoxelBox& within, const LabelField& field) const;
-  /** Sorts the parts of each object by bricks. */
+  /** Store the parts of all objects, sorted by brick and object. */
   void Join(std::vector<std::vector<Part>>& parts);
-  /** The values of a brick, x fastest; null: it has none of this object. */
+  /** Return the values of an object in a brick, x fastest; null: none are stored. */
   float* ValuesIn(std::size_t brick, int object) const;
 
   struct Brick
@@ -125,10 +125,10 @@ private:
   const LabelBricks& Map;
   std::array<double, 3> Lengths;
   bool IsPeriodic;
-  std::vector<std::size_t> First;         ///< of each brick, in OfBricks
-  std::vector<Brick> OfBricks;            ///< those of a brick sorted by object
-  std::vector<LargeVector<float>> Values; ///< of all parts
-  std::vector<float> Shifts;              ///< of each object
+  std::vector<std::size_t> First;         ///< first entry of each brick in BrickEntries
+  std::vector<Brick> BrickEntries;        ///< sorted by brick and object
+  std::vector<LargeVector<float>> Values; ///< values of all parts
+  std::vector<float> Shifts;              ///< shift of each object
 };
 }
 

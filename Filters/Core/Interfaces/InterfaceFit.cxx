@@ -16,22 +16,20 @@ namespace volumic
 {
 namespace
 {
-/** Damped Jacobi sweeps over the equations of the shifts. */
-constexpr int VolumeSweeps = 400;
-/** By how much fields are changed at a voxel on the wrong side, in smallest distances of voxels. */
-constexpr float PushOfWrong = 0.25f;
+constexpr int VolumeSweeps = 400; ///< damped Jacobi iterations
+/** Change of the fields at a misclassified voxel, in the smallest voxel spacing. */
+constexpr float PushOfMisclassified = 0.25f;
 
-/** Where objects fill a box only differences count: all shifts would run away together. */
+/** Regularization: if objects fill a box, only the differences of shifts are determined. */
 constexpr double PullToZero = 1e-3;
-/** Of objects of fewer voxels less is expected. */
+/** Smaller objects are not included in the returned volume error. */
 constexpr std::int64_t LeastVoxels = 8;
 
-/** Where fields differ less from place to place nothing is said by how much. */
+/** Lower bound of the slope of half the field difference. */
 constexpr double LeastSlope = 0.3;
-/** Faces that a thread adds at a time. */
 constexpr std::size_t SpanSize = 4096;
 
-/** How fast half of the difference of its fields grows across a face. */
+/** Return the slope of half the difference of the two fields of a face, at its centre. */
 double SlopeAt(
   const InterfaceMesh& mesh, const InterfaceFields& fields, const InterfaceMesh::Face& face)
 {
@@ -43,18 +41,18 @@ double SlopeAt(
   return Length(fields.Between(face.Behind, face.Front, middle).Gradient);
 }
 
-/** Of the faces between two objects. */
+/** Sums over the faces between two objects. */
 struct FaceSums
 {
-  double Volume = 0.; ///< between them and the origin
-  double Area = 0.;   ///< of each over the slope of half of the difference of its fields
+  double Volume = 0.; ///< signed volume between the faces and the origin
+  double Area = 0.;   ///< area of each face divided by its slope (SlopeAt)
 };
-/** By the object behind and that in front. */
+/** Keyed by the object behind and the object in front. */
 using SumsOfPairs = std::map<std::array<std::size_t, 2>, FaceSums>;
 
 SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, Executor& executor)
 {
-  std::vector<SumsOfPairs> ofSpans((mesh.Faces.size() + SpanSize - 1) / SpanSize);
+  std::vector<SumsOfPairs> perSpan((mesh.Faces.size() + SpanSize - 1) / SpanSize);
   ForSpans(executor, mesh.Faces.size(), SpanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
     {
@@ -65,7 +63,7 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
         {
           continue;
         }
-        FaceSums& sums = ofSpans[span][{ face.Behind, face.Front }];
+        FaceSums& sums = perSpan[span][{ face.Behind, face.Front }];
         const VectorD across = mesh.NormalOf(face);
         sums.Volume +=
           Dot(across, VectorD(mesh.Position[static_cast<std::size_t>(face.Vertex[0])])) / 6.;
@@ -76,7 +74,7 @@ SumsOfPairs SumFaces(const InterfaceMesh& mesh, const InterfaceFields& fields, E
       }
     });
   SumsOfPairs all;
-  for (const SumsOfPairs& some : ofSpans)
+  for (const SumsOfPairs& some : perSpan)
   {
     for (const auto& [objects, sums] : some)
     {
@@ -95,18 +93,18 @@ double CorrectVolumes(
   const LabelBricks& bricks = fields.Bricks();
   const auto count = static_cast<std::size_t>(bricks.Map().NumberOfObjects) + 1;
   const std::array<double, 3>& step = fields.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
+  const double voxelVolume = step[0] * step[1] * step[2];
   std::vector<double> missing(count, 0.);
   for (std::size_t object = 1; object < count; ++object)
   {
     missing[object] =
-      ofVoxel * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
+      voxelVolume * static_cast<double>(bricks.ExtentOf(static_cast<int>(object)).Voxels);
   }
   std::map<std::array<std::size_t, 2>, double> areas;
   for (const auto& [objects, sums] : SumFaces(mesh, fields, executor))
   {
     missing[objects[0]] -= sums.Volume;
-    if (!mesh.IsSide(static_cast<int>(objects[1]))) // which stays where it is
+    if (!mesh.IsSide(static_cast<int>(objects[1]))) // Sides are fixed.
     {
       missing[objects[1]] += sums.Volume;
       areas[objects] = sums.Area;
@@ -118,7 +116,8 @@ double CorrectVolumes(
     const std::int64_t voxels = bricks.ExtentOf(static_cast<int>(object)).Voxels;
     if (voxels >= LeastVoxels)
     {
-      worst = std::max(worst, std::abs(missing[object]) / (ofVoxel * static_cast<double>(voxels)));
+      worst =
+        std::max(worst, std::abs(missing[object]) / (voxelVolume * static_cast<double>(voxels)));
     }
   }
   std::vector<double> shifts(count, 0.);
@@ -140,31 +139,30 @@ double CorrectVolumes(
     }
     for (std::size_t object = 1; object < count; ++object)
     {
-      // Half of it: undamped, shifts of two objects that have only each other alternate.
+      // Damping by 1/2: otherwise the shifts of two objects with one interface oscillate.
       const double weight = weights[object] * (1. + PullToZero);
       shifts[object] += 0.5 * (weight > 0. ? sums[object] / weight - shifts[object] : 0.);
     }
   }
   for (std::size_t object = 1; object < count; ++object)
   {
-    fields.Shift(static_cast<int>(object), static_cast<float>(shifts[object]),
-      static_cast<float>(tolerance));
+    fields.Shift(
+      static_cast<int>(object), static_cast<float>(shifts[object]), static_cast<float>(tolerance));
   }
   return worst;
 }
 
-std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
-  Executor& executor)
+std::size_t PushMisclassifiedVoxels(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor)
 {
   std::size_t count = 0;
-  for (const MismatchedVoxel& voxel :
-    FindMismatchedVoxels(
-      mesh, fields.Bricks().Map(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
+  for (const MismatchedVoxel& voxel : FindMismatchedVoxels(
+         mesh, fields.Bricks().Map(), fields.Bricks().Inside(), fields.Step(), tolerance, executor))
   {
     if (voxel.IsFar)
     {
-      fields.Push(voxel.OfMap, voxel.At, PushOfWrong);
-      fields.Push(voxel.OfMesh, voxel.At, PushOfWrong);
+      fields.Push(voxel.MapObject, voxel.At, PushOfMisclassified);
+      fields.Push(voxel.MeshObject, voxel.At, PushOfMisclassified);
       ++count;
     }
   }

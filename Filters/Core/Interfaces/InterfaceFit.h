@@ -12,24 +12,23 @@
 namespace volumic
 {
 /**
- * Shifts all fields so that, to first order, each object but 0, which is what is about the
- * others, gets the volume of its voxels: an interface moves by half of what its two fields are
- * shifted by, over the slope of half of their difference. The equations, one per object, are a
- * Laplacian whose weights are the areas between two objects.
- * @param tolerance how far faces may be from the interfaces of the fields; workspace
- * @return by which share of its voxels' volume that of an object of 8 or more is off, at most
+ * Shift all fields so that each object except for the background gets the volume of its voxels, to
+ * first order. An interface moves by half the difference of the shifts of its two fields, divided
+ * by the slope of half the difference of the fields. The equations, one per object, are a graph
+ * Laplacian weighted by the areas between objects.
+ * @param tolerance allowed distance of faces from the interfaces of the fields, computational space
+ * @return largest relative volume error of the objects with at least 8 voxels
  */
 double CorrectVolumes(
   const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor);
 
 /**
- * Changes fields at voxels that the mesh has on the wrong side, so that the next steps take
- * interfaces past them.
- * @param tolerance those nearer to the interfaces are not wrong, in smallest distances of voxels
- * @return how many there are
+ * Change the fields at misclassified voxels, so that the next steps move the interfaces past them.
+ * @param tolerance voxels nearer to an interface are not counted, in the smallest voxel spacing
+ * @return number of misclassified voxels
  */
-std::size_t PushWrongVoxels(const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance,
-  Executor& executor);
+std::size_t PushMisclassifiedVoxels(
+  const InterfaceMesh& mesh, InterfaceFields& fields, double tolerance, Executor& executor);
 }
 
 #endif

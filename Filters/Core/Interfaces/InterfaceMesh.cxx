@@ -64,7 +64,7 @@ int InterfaceMesh::AddFace(const Face& face)
   constexpr std::size_t most = std::numeric_limits<int>::max() / 3;
   if (this->Faces.size() >= most)
   {
-    throw std::bad_alloc(); // Corners would have no numbers.
+    throw std::bad_alloc(); // Corner numbers would overflow.
   }
   const int number = static_cast<int>(this->Faces.size());
   this->Faces.push_back(face);
@@ -119,16 +119,16 @@ bool InterfaceMesh::IsLine(const std::vector<int>& faces) const
   return faces.size() > 2 || (faces.size() == 2 && isOther(faces[0], faces[1]));
 }
 
-Vector InterfaceMesh::OnSides(int v, const Vector& place) const
+Vector InterfaceMesh::ProjectToSides(int v, const Vector& position) const
 {
   if (this->FirstSide == std::numeric_limits<int>::max())
   {
-    return place; // There is no box.
+    return position; // There is no box.
   }
   const Vector& own = this->Position[static_cast<std::size_t>(v)];
-  Vector moved(std::clamp(place.X, this->Planes[0], this->Planes[1]),
-    std::clamp(place.Y, this->Planes[2], this->Planes[3]),
-    std::clamp(place.Z, this->Planes[4], this->Planes[5]));
+  Vector moved(std::clamp(position.X, this->Planes[0], this->Planes[1]),
+    std::clamp(position.Y, this->Planes[2], this->Planes[3]),
+    std::clamp(position.Z, this->Planes[4], this->Planes[5]));
   this->ForFaces(v,
     [&](int f)
     {

@@ -16,8 +16,8 @@
 namespace volumic
 {
 /**
- * What a vertex of interfaces lies on. Interfaces end at junction lines, where three of them or
- * more meet, and these at junction points.
+ * Stratum of a vertex. Three or more interfaces meet at a junction line, and junction lines end at
+ * junction points (Corner).
  */
 enum class Stratum : unsigned char
 {
@@ -27,30 +27,30 @@ enum class Stratum : unsigned char
 };
 
 /**
- * The interfaces of the objects of a label map: triangles between two objects each, of which any
- * number may share an edge. The triangles of an object, taken together, are a closed manifold
- * surface. Lengths: workspace.
+ * Non-manifold triangle mesh of the interfaces between the objects of a label map. Each triangle
+ * separates two objects, and any number of triangles may share an edge. The triangles of one object
+ * form a closed manifold surface. Lengths are in computational space.
  *
- * Objects may end at the sides of a box, which are numbered as objects are, after these: x-min,
- * x-max, y-min and so on. A face in front of which a side is lies in its plane, exactly. Sides have
- * no faces between each other, nor with object 0, so that the edges of the box, and the rims of its
- * faces, are lines with two triangles only.
+ * Objects may end at the sides of a box. Sides are numbered after the objects: x-min, x-max, y-min,
+ * y-max, z-min, z-max. A face with a side in front lies exactly in the plane of this side. There
+ * are no faces between two sides, or between a side and object 0. Hence the edges of the box, and
+ * the boundaries of objects on a side, may be lines with only two triangles.
  */
 class InterfaceMesh
 {
 public:
   struct Face
   {
-    std::array<int, 3> Vertex; ///< counter-clockwise seen from Front; the first -1: it is removed
+    std::array<int, 3> Vertex; ///< counter-clockwise seen from Front; Vertex[0] is -1 if removed
     LabelMap::Number Behind;   ///< object
-    LabelMap::Number Front;    ///< object, of a larger number
+    LabelMap::Number Front;    ///< object or side with a larger number than Behind
 
     bool IsThere() const { return this->Vertex[0] >= 0; }
     bool Has(int v) const
     {
       return this->Vertex[0] == v || this->Vertex[1] == v || this->Vertex[2] == v;
     }
-    /** The third vertex, of a face that has both. */
+    /** Return the third vertex of a face that has the vertices u and v. */
     int Opposite(int u, int v) const
     {
       return this->Vertex[0] + this->Vertex[1] + this->Vertex[2] - u - v;
@@ -59,10 +59,10 @@ public:
 
   LargeVector<Vector> Position;
   LargeVector<Stratum> StratumOf;
-  /** By how much longer edges are wanted about a vertex than where they are shortest. */
+  /** Desired edge length at each vertex, relative to the basic edge length. */
   LargeVector<float> Size;
   LargeVector<Face> Faces;
-  /** As LabelMap::WholeOf: parts of one object never get a vertex in common. */
+  /** As LabelMap::WholeOf. Parts of one object never share a vertex. */
   std::vector<LabelMap::Number> WholeOf;
   int Whole(int object) const
   {
@@ -70,9 +70,8 @@ public:
       ? this->WholeOf[static_cast<std::size_t>(object)]
       : object;
   }
-  /** The number of x-min. */
+  /** Number of the side x-min. */
   int FirstSide = std::numeric_limits<int>::max();
-  /** The planes of the sides. */
   std::array<float, 6> Planes = { -Infinite, Infinite, -Infinite, Infinite, -Infinite, Infinite };
 
   bool IsSide(int object) const { return object >= this->FirstSide; }
@@ -81,35 +80,34 @@ public:
   {
     return this->Planes[static_cast<std::size_t>(side - this->FirstSide)];
   }
-  /** A place in the box, with a vertex's own coordinates along axes at whose sides it is. */
-  Vector OnSides(int v, const Vector& place) const;
+  /** Project a position into the box, and into the planes of the sides that a vertex lies on. */
+  Vector ProjectToSides(int v, const Vector& position) const;
 
   /**
-   * In a periodic box vertices on a side have images on the opposite one, with bits of two
-   * coordinates in common, and so have the edges and faces there: 2 in a side, 4 in an edge of the
-   * box, 8 in its corners. Those of a vertex are a ring of next ones; others are their own.
+   * Next image of each vertex, as a cyclic list. In a periodic box each vertex on a side has an
+   * image on the opposite side, with bit-identical coordinates along the side, and so do edges and
+   * faces. The number of images is 2 in a side, 4 on an edge and 8 at a corner of the box. A vertex
+   * without other images is its own image.
    */
   LargeVector<int> NextImage;
   bool HasImages(int v) const { return this->NextImage[static_cast<std::size_t>(v)] != v; }
-  /** From the places of vertices. @throws std::logic_error where some have no image */
+  /** Find all images by position. @throws std::logic_error if opposite sides do not match */
   void MatchSides();
-  int NumberOfImages(int v) const; ///< itself among them
-  /** Those of an edge (u, v), or of a vertex (v, v), itself first. */
+  int NumberOfImages(int v) const; ///< includes v itself
+  /** Find the images of an edge (u, v), or of a vertex (v, v), itself first. */
   void FindImages(int u, int v, std::vector<std::array<int, 2>>& images) const;
-  /** Makes a ring of vertices that are images of each other. */
   void JoinImages(const std::vector<int>& images);
 
-  /** Takes these, in place of what it has, all sizes 1; strata are to be found. */
+  /** Replace the mesh. All sizes are 1; call FindStrata() afterwards. */
   void Assign(LargeVector<Vector> positions, LargeVector<Face> faces);
   int AddVertex(const Vector& position, Stratum stratum, float size = 1.f);
   int AddFace(const Face& face);
   void RemoveFace(int face);
-  /** Has a face have another vertex in the place of one. */
   void ReplaceVertex(int face, int old, int vertex);
 
   bool IsVertex(int v) const { return this->Head[static_cast<std::size_t>(v)] >= 0; }
 
-  /** Calls visit(face) for the faces of a vertex, in an order that the edits before have made. */
+  /** Call visit(face) for the faces of a vertex; their order depends on previous edits. */
   template <typename Visitor>
   void ForFaces(int v, Visitor&& visit) const
   {
@@ -120,17 +118,16 @@ public:
       corner = next;
     }
   }
-  /** Whether the faces at an edge are those of a line: not two between the same objects. */
+  /** Return whether the faces at an edge form a line: they are not two faces of one interface. */
   bool IsLine(const std::vector<int>& faces) const;
-  /** The faces at an edge. */
   void FindFaces(int u, int v, std::vector<int>& faces) const;
   bool HasEdge(int u, int v) const;
   /**
-   * Other vertices of the faces of a vertex, sorted; each as often as there are faces at the edge,
-   * but along lines at least three times.
+   * Find the sorted neighbours of a vertex. Each occurs once per face at its edge, neighbours along
+   * a line at least three times.
    */
   void FindNeighbours(int v, std::vector<int>& neighbours) const;
-  /** Calls visit(w) for each of these neighbours that is one along a line, in their order. */
+  /** Call visit(w) for each neighbour along a line, given the result of FindNeighbours(). */
   template <typename Visitor>
   static void ForLineNeighbours(const std::vector<int>& neighbours, Visitor&& visit)
   {
@@ -143,35 +140,30 @@ public:
       }
     }
   }
-  /** The objects about a vertex, sorted. */
+  /** Find the sorted objects and sides at a vertex. */
   void FindObjects(int v, std::vector<int>& objects) const;
 
-  /** Of all vertices, by the faces at their edges. */
   void FindStrata();
 
-  /** The edges of junction lines, the lower vertex first. */
+  /** Return the edges of junction lines, the lower vertex first. */
   std::vector<std::array<int, 2>> FindLines() const;
 
-  /** Of each object, from 0 on, its faces. */
   std::vector<std::vector<int>> FindFacesOfObjects() const;
-  /**
-   * The closed surface of an object, with all its parts, of its faces; vertices[n] is point n of
-   * it.
-   */
+  /** Return the closed surface of an object and its parts; point n is the vertex vertices[n]. */
   IndexedSurface SurfaceOf(
     int object, const std::vector<int>& faces, std::vector<int>& vertices) const;
 
-  /** Of an edge (u, v), which need not be there yet. */
+  /** Return the size of an edge (u, v), which need not exist. */
   float SizeOf(int u, int v) const
   {
     return 0.5f *
       (this->Size[static_cast<std::size_t>(u)] + this->Size[static_cast<std::size_t>(v)]);
   }
 
-  VectorD NormalOf(const Face& face) const; ///< twice the area long
-  double MeanEdge() const;                  ///< of the faces' edges
+  VectorD NormalOf(const Face& face) const; ///< length: twice the area
+  double MeanEdge() const;
 
-  /** Takes what is removed out of all arrays. @param isSorted numbers vertices by Z, Y and X */
+  /** Delete removed elements from all arrays. @param isSorted sort vertices by Z, Y and X */
   void Compact(bool isSorted = false);
 
 private:
@@ -180,8 +172,9 @@ private:
   void Link(int corner, int v);
   void Unlink(int corner, int v);
 
-  LargeVector<int> Head; ///< of each vertex its last corner, 3 times the face and its place in it
-  LargeVector<int> Next; ///< of each corner another one of the same vertex
+  // Corner number: 3 * face + index of the vertex in the face.
+  LargeVector<int> Head; ///< last added corner of each vertex; -1: none
+  LargeVector<int> Next; ///< next corner of the same vertex; -1: end
 };
 }
 

@@ -16,62 +16,61 @@ namespace volumic
 namespace
 {
 constexpr std::size_t SpanSize = 1024;
-/** Cosine of the angle by which a face may turn. */
-constexpr double LeastTurnCosine = 0.3;
+constexpr double LeastTurnCosine = 0.3; ///< of the angle by which a face may turn
 
-/** Takes back what is not safe. */
+/** Moves vertices of invalid faces back to their initial positions. */
 class Verification
 {
 public:
   Verification(InterfaceMesh& mesh, const LargeVector<Vector>& before, double tolerance,
     double leastAngle, Executor& executor)
     : Mesh(mesh), Before(before), Clearance(mesh, tolerance), Tolerance(tolerance),
-      LeastAngle(leastAngle), Threads(executor), IsBack(mesh.Position.size(), 0)
+      LeastAngle(leastAngle), Threads(executor), IsRestored(mesh.Position.size(), 0)
   {
   }
 
   void Run()
   {
-    std::vector<int> back;
-    this->TakeBackTurned(this->FindTurned(), back);
+    std::vector<int> restored;
+    this->RestoreTurned(this->FindTurned(), restored);
     const InterfaceCrossings crossings = FindCrossings(this->Mesh, this->Tolerance, this->Threads);
-    this->TakeBackPairs(crossings.Pairs, back);
-    this->TakeBackPairs(this->FindPassed(crossings.Doubtful), back);
-    if (back.empty())
+    this->RestorePairs(crossings.Pairs, restored);
+    this->RestorePairs(this->FindPassed(crossings.Candidates), restored);
+    if (restored.empty())
     {
       return;
     }
     this->Clearance.Reset(this->Threads);
-    // Each round takes back a vertex more, or is the last one.
-    while (!back.empty())
+    // Terminates: each round except for the last one moves at least one more vertex back.
+    while (!restored.empty())
     {
-      std::vector<int> faces = this->FindFacesOf(back);
-      back.clear();
-      this->TakeBackTurned(faces, back);
-      const std::vector<int> more = this->FindFacesOf(back);
+      std::vector<int> faces = this->FindFacesOf(restored);
+      restored.clear();
+      this->RestoreTurned(faces, restored);
+      const std::vector<int> more = this->FindFacesOf(restored);
       faces.insert(faces.end(), more.begin(), more.end());
-      this->Follow(back);
+      this->UpdateClearance(restored);
       const std::vector<std::array<int, 2>> pairs = this->FindPairs(faces,
         [this](int face, std::vector<int>& near)
         { return this->Clearance.FindIntersecting(face, near); });
       std::vector<int> now;
-      this->TakeBackPairs(pairs, now);
-      this->TakeBackPairs(this->FindPassed(faces), now);
-      this->Follow(now);
-      back.insert(back.end(), now.begin(), now.end());
+      this->RestorePairs(pairs, now);
+      this->RestorePairs(this->FindPassed(faces), now);
+      this->UpdateClearance(now);
+      restored.insert(restored.end(), now.begin(), now.end());
     }
   }
 
 private:
-  void TakeBack(int v, std::vector<int>& back)
+  void Restore(int v, std::vector<int>& restored)
   {
-    unsigned char& isBack = this->IsBack[static_cast<std::size_t>(v)];
-    if (isBack == 0)
+    unsigned char& isRestored = this->IsRestored[static_cast<std::size_t>(v)];
+    if (isRestored == 0)
     {
-      isBack = 1;
+      isRestored = 1;
       this->Mesh.Position[static_cast<std::size_t>(v)] = this->Before[static_cast<std::size_t>(v)];
-      back.push_back(v);
-      this->TakeBack(this->Mesh.NextImage[static_cast<std::size_t>(v)], back);
+      restored.push_back(v);
+      this->Restore(this->Mesh.NextImage[static_cast<std::size_t>(v)], restored);
     }
   }
 
@@ -82,12 +81,12 @@ private:
       TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
     const VectorD before = NormalOf(old);
     const VectorD after = NormalOf(now);
-    const auto isSpoilt = [&]
+    const auto isDegraded = [&]
     {
       const double angle = SmallestAngle(now);
       return angle < this->LeastAngle && angle < SmallestAngle(old);
     };
-    return (this->LeastAngle > 0. && isSpoilt()) ||
+    return (this->LeastAngle > 0. && isDegraded()) ||
       Dot(before, after) < LeastTurnCosine * Length(before) * Length(after);
   }
 
@@ -103,43 +102,43 @@ private:
       });
   }
 
-  void TakeBackTurned(const std::vector<int>& faces, std::vector<int>& back)
+  void RestoreTurned(const std::vector<int>& faces, std::vector<int>& restored)
   {
     for (const int f : faces)
     {
       if (this->HasTurned(f))
       {
-        this->TakeBackFace(f, back);
+        this->RestoreFace(f, restored);
       }
     }
   }
 
-  void TakeBackFace(int f, std::vector<int>& back)
+  void RestoreFace(int f, std::vector<int>& restored)
   {
     for (const int v : this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex)
     {
-      this->TakeBack(v, back);
+      this->Restore(v, restored);
     }
   }
 
-  void TakeBackPairs(const std::vector<std::array<int, 2>>& pairs, std::vector<int>& back)
+  void RestorePairs(const std::vector<std::array<int, 2>>& pairs, std::vector<int>& restored)
   {
     for (const std::array<int, 2>& pair : pairs)
     {
-      this->TakeBackFace(pair[0], back);
-      this->TakeBackFace(pair[1], back);
+      this->RestoreFace(pair[0], restored);
+      this->RestoreFace(pair[1], restored);
     }
   }
 
-  /** Of each of some faces one that other(face, room) finds, if it finds one. */
+  /** Return the pairs (face, other(face, scratch)) with a non-negative second face. */
   template <typename Other>
   std::vector<std::array<int, 2>> FindPairs(const std::vector<int>& faces, const Other& other) const
   {
     return CollectInSpans<std::array<int, 2>>(this->Threads, faces.size(), SpanSize,
       [&](std::size_t n, std::vector<std::array<int, 2>>& pairs)
       {
-        std::vector<int> room;
-        const int found = other(faces[n], room);
+        std::vector<int> scratch;
+        const int found = other(faces[n], scratch);
         if (found >= 0)
         {
           pairs.push_back({ faces[n], found });
@@ -149,20 +148,20 @@ private:
 
   std::vector<std::array<int, 2>> FindPassed(const std::vector<int>& faces) const
   {
-    return this->FindPairs(faces,
-      [this](int face, std::vector<int>& about) { return this->FindPassed(face, about); });
+    return this->FindPairs(
+      faces, [this](int face, std::vector<int>& atEdge) { return this->FindPassed(face, atEdge); });
   }
 
-  /** One with an edge of this face that it has been turned past; -1: none. */
-  int FindPassed(int face, std::vector<int>& about) const
+  /** Return a face at a common edge past which a face has been turned; -1: none. */
+  int FindPassed(int face, std::vector<int>& atEdge) const
   {
     const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     for (int k = 0; k < 3; ++k)
     {
       const int u = corners[k];
       const int v = corners[(k + 1) % 3];
-      this->Mesh.FindFaces(u, v, about);
-      for (const int other : about)
+      this->Mesh.FindFaces(u, v, atEdge);
+      for (const int other : atEdge)
       {
         if (other != face &&
           HavePassed(u, v, { this->FaceBefore(face), this->FaceBefore(other) },
@@ -188,10 +187,9 @@ private:
     return triangle;
   }
 
-  /** What has been taken back is where it is found from now on. */
-  void Follow(const std::vector<int>& back)
+  void UpdateClearance(const std::vector<int>& restored)
   {
-    for (const int v : back)
+    for (const int v : restored)
     {
       this->Mesh.ForFaces(v, [&](int f) { this->Clearance.Change(f); });
     }
@@ -214,11 +212,11 @@ private:
   double Tolerance;
   double LeastAngle;
   Executor& Threads;
-  std::vector<unsigned char> IsBack;
+  std::vector<unsigned char> IsRestored;
 };
 
-/** Has images make the shortest of their steps. */
-void MoveImagesAlike(const InterfaceMesh& mesh, LargeVector<Vector>& after)
+/** Give all images of a vertex the shortest of their steps. */
+void SynchronizeImages(const InterfaceMesh& mesh, LargeVector<Vector>& after)
 {
   const auto lengthOf = [&](int v)
   {
@@ -233,19 +231,19 @@ void MoveImagesAlike(const InterfaceMesh& mesh, LargeVector<Vector>& after)
       mesh.FindImages(v, v, images);
       const int shortest = (*std::min_element(images.begin(), images.end(),
         [&](const auto& a, const auto& b) { return lengthOf(a[0]) < lengthOf(b[0]); }))[0];
-      const Vector place = after[static_cast<std::size_t>(shortest)];
+      const Vector position = after[static_cast<std::size_t>(shortest)];
       for (const auto& image : images)
       {
-        after[static_cast<std::size_t>(image[0])] = mesh.OnSides(image[0], place);
+        after[static_cast<std::size_t>(image[0])] = mesh.ProjectToSides(image[0], position);
       }
     }
   }
 }
 }
 
-void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, double leastAngle, Executor& executor, double straightening,
-  double mostOfEdge)
+void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps,
+  double relaxation, double shortest, double tolerance, double leastAngle, Executor& executor,
+  double straightening, double mostOfEdge)
 {
   const LargeVector<Vector> before = mesh.Position;
   LargeVector<Vector> after = before;
@@ -256,23 +254,23 @@ void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int step
       ForSpans(executor, before.size(), SpanSize,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
-          VertexTargets targets(mesh, fields, share, shortest, straightening, mostOfEdge);
+          VertexTargets targets(mesh, fields, relaxation, shortest, straightening, mostOfEdge);
           for (std::size_t v = begin; v < end; ++v)
           {
             if (mesh.IsVertex(static_cast<int>(v)))
             {
-              after[v] = targets.Of(static_cast<int>(v));
+              after[v] = targets.TargetOf(static_cast<int>(v));
             }
           }
         });
-      MoveImagesAlike(mesh, after);
+      SynchronizeImages(mesh, after);
       mesh.Position.swap(after);
     }
     Verification(mesh, before, tolerance, leastAngle, executor).Run();
   }
   catch (...)
   {
-    mesh.Position = before; // Some steps are not verified.
+    mesh.Position = before; // The steps are not verified.
     throw;
   }
 }

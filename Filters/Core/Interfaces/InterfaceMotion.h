@@ -11,19 +11,17 @@
 namespace volumic
 {
 /**
- * Steps of all vertices at once: along their interface or junction line to the middle of their
- * neighbours, by this share of the way, then to where the fields of all objects about them are the
- * same (Newton). No vertex goes further than `mostOfEdge` of its shortest edge in a step. Those whose triangles
- * intersect after the last one, have turned too far, or have become too narrow, are taken back to
- * where they were before the first, which is safe as all was safe then.
+ * Move all vertices simultaneously, in several steps (VertexTargets). After the last step, vertices
+ * of triangles that intersect, have turned too far or have become too narrow are moved back to
+ * their initial positions. The result has no intersections, as the initial mesh has none. Lengths
+ * are in computational space.
  *
- * @param shortest      no edge is made shorter than that; workspace
- * @param tolerance     nearer than that triangles are never; workspace
- * @param leastAngle    of triangles, radian: those that have a smaller one have had it before
- * @param straightening see VertexTargets
+ * @param tolerance  triangles at a smaller distance count as intersecting
+ * @param leastAngle no angle of a triangle is reduced below this angle, in radians
+ * @see VertexTargets for the other parameters
  */
-void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps, double share,
-  double shortest, double tolerance, double leastAngle, Executor& executor,
+void MoveInterfaces(InterfaceMesh& mesh, const InterfaceFields& fields, int steps,
+  double relaxation, double shortest, double tolerance, double leastAngle, Executor& executor,
   double straightening = MostStraightening, double mostOfEdge = MostOfEdge);
 }
 

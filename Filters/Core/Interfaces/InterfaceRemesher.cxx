@@ -17,25 +17,24 @@ namespace volumic
 {
 namespace
 {
-/** Faces that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 /**
- * In longest edges: how far faces may come out of their cube, and how wide a cube is. An edit
- * writes what is within an edge of its face, and the cells of the grid there, which are as wide as
- * an edge at most. It reads what is within two edges and a half, and the cells there: two cubes of
- * a colour have nothing in common if there are 2 * 1 + 1 + 2.5 + 2 edges between them.
+ * Distance by which faces may extend beyond their cube, and edge length of a cube, both in longest
+ * edge lengths. An edit writes within 1 edge of its face, and reads within 2.5 edges. Both include
+ * the grid cells there, which are at most 1 edge wide. Two cubes of one colour are independent if
+ * they are 2 * 1 + 1 + 2.5 + 2 edges apart.
  */
 constexpr float MarginInEdges = 1.f;
 constexpr float SideInEdges = 7.5f;
-/** Bits of a cube's number along an axis. */
+/** Bits of the index of a cube along an axis. */
 constexpr int Bits = 20;
 constexpr std::uint64_t Last = (std::uint64_t(1) << Bits) - 1;
 
-/** A cube and one of its faces, that whose middle is in it. */
+/** A face and the cube that contains its middle. */
 struct FaceInCube
 {
-  std::uint64_t Colour; ///< the cube's parities: between two of a colour there is another one
-  std::uint64_t Cube;   ///< its numbers along the axes
+  std::uint64_t Colour; ///< parities of the indices of the cube
+  std::uint64_t Cube;   ///< indices of the cube along the axes
   int Face;
 
   bool operator<(const FaceInCube& other) const
@@ -45,16 +44,16 @@ struct FaceInCube
   }
 };
 
-FaceInCube PlaceOf(const Vector& fromLow, float side, int face)
+FaceInCube CubeOf(const Vector& fromLow, float side, int face)
 {
-  FaceInCube place = { 0, 0, face };
+  FaceInCube result = { 0, 0, face };
   for (const float length : { fromLow.Z, fromLow.Y, fromLow.X })
   {
     const auto number = std::min(Last, static_cast<std::uint64_t>(std::max(0.f, length / side)));
-    place.Colour = place.Colour << 1 | (number & 1);
-    place.Cube = place.Cube << Bits | number;
+    result.Colour = result.Colour << 1 | (number & 1);
+    result.Cube = result.Cube << Bits | number;
   }
-  return place;
+  return result;
 }
 
 Box BoxOf(std::uint64_t cube, const Vector& low, float side)
@@ -65,24 +64,22 @@ Box BoxOf(std::uint64_t cube, const Vector& low, float side)
   return { from, from + Vector(side, side, side) };
 }
 
-/** What is to be done in a cube. */
-class CubeWork
+class CubeEdits
 {
 public:
-  /** @param share of space, in which edits are made */
-  CubeWork(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& share)
-    : Mesh(mesh), Clearance(clearance), Share(share)
+  /** @param region box that contains all edited faces */
+  CubeEdits(const InterfaceMesh& mesh, const InterfaceClearance& clearance, const Box& region)
+    : Mesh(mesh), Clearance(clearance), Region(region)
   {
   }
 
-  /** The faces in the cube. */
   void FindFaces(const FaceInCube* first, const FaceInCube* last)
   {
     for (; first != last; ++first)
     {
       if (this->Mesh.Faces[static_cast<std::size_t>(first->Face)].IsThere())
       {
-        (this->IsNear(first->Face) ? this->Faces : this->Left).push_back(first->Face);
+        (this->IsNear(first->Face) ? this->Faces : this->Remaining).push_back(first->Face);
       }
     }
   }
@@ -102,39 +99,39 @@ public:
       }
       else
       {
-        this->Left.push_back(face);
+        this->Remaining.push_back(face);
       }
     }
   }
 
-  std::vector<int> Left; ///< what is not done here
-  int Count = 0;         ///< of edits
+  std::vector<int> Remaining; ///< faces left for the serial pass
+  int Count = 0;
 
 private:
-  /** Whether an edit at a face touches nothing that those in other cubes do. */
+  /** Return whether an edit of a face is independent of the edits in other cubes. */
   bool IsNear(int face) const
   {
     const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
     const Box& box = this->Clearance.BoxOf(face);
-    return this->Share.Contains(box.Low) && this->Share.Contains(box.High) &&
+    return this->Region.Contains(box.Low) && this->Region.Contains(box.High) &&
       std::none_of(v.begin(), v.end(), [this](int corner) { return this->Mesh.HasImages(corner); });
   }
 
   const InterfaceMesh& Mesh;
   const InterfaceClearance& Clearance;
-  Box Share;
+  Box Region;
   std::vector<int> Faces;
 };
 }
 
 InterfaceRemesher::InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest,
-  double tolerance, Executor& executor, std::function<bool()> goOn)
-  : Mesh(mesh), GoOn(std::move(goOn)), Threads(executor), Clearance(mesh, tolerance),
-    Shortest(shortest), Longest(longest)
+  double tolerance, Executor& executor, std::function<bool()> shouldContinue)
+  : Mesh(mesh), ShouldContinue(std::move(shouldContinue)), Threads(executor),
+    Clearance(mesh, tolerance), Shortest(shortest), Longest(longest)
 {
 }
 
-void InterfaceRemesher::LayGrid()
+void InterfaceRemesher::UpdateGrid()
 {
   if (!this->HasGrid)
   {
@@ -147,8 +144,8 @@ int InterfaceRemesher::SplitLongEdges()
 {
   InterfaceEdits edits = this->Edits();
   int count = 0;
-  // New faces are looked at in their turn.
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  // New faces are appended, and hence visited as well.
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->CanContinue(f); ++f)
   {
     count += this->Mesh.Faces[f].IsThere() && edits.TrySplit(static_cast<int>(f)) ? 1 : 0;
   }
@@ -158,10 +155,10 @@ int InterfaceRemesher::SplitLongEdges()
 
 int InterfaceRemesher::RemoveSlivers()
 {
-  this->LayGrid();
+  this->UpdateGrid();
   InterfaceEdits edits = this->Edits();
   int count = 0;
-  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->GoesOn(f); ++f)
+  for (std::size_t f = 0; f < this->Mesh.Faces.size() && this->CanContinue(f); ++f)
   {
     count += this->Mesh.Faces[f].IsThere() && edits.RemoveSliver(static_cast<int>(f)) ? 1 : 0;
   }
@@ -190,7 +187,7 @@ float InterfaceRemesher::LongestEdge() const
     });
   const float now = std::sqrt(*std::max_element(longest.begin(), longest.end()));
   const float size = *std::max_element(largest.begin(), largest.end());
-  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerSlack) * size);
+  return std::max(now, static_cast<float>(this->Longest * InterfaceEdits::CornerFactor) * size);
 }
 
 template <typename Visit>
@@ -200,7 +197,7 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
   {
     return 0;
   }
-  this->LayGrid();
+  this->UpdateGrid();
   const float longest = this->LongestEdge();
   this->Clearance.ExpectEdges(longest);
   const float side = SideInEdges * longest;
@@ -211,46 +208,45 @@ int InterfaceRemesher::VisitInCubes(const Visit& visit)
       if (this->Mesh.Faces[f].IsThere())
       {
         const int face = static_cast<int>(f);
-        some.push_back(PlaceOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
+        some.push_back(CubeOf(this->Clearance.BoxOf(face).Middle() - low, side, face));
       }
     });
   Sort(this->Threads, faces);
-  std::vector<std::vector<int>> left;
+  std::vector<std::vector<int>> remaining;
   int count = 0;
-  for (std::size_t n = 0; n < faces.size() && this->GoOn();)
+  for (std::size_t n = 0; n < faces.size() && this->ShouldContinue();)
   {
-    // The cubes of one colour.
     const std::uint64_t colour = faces[n].Colour;
-    std::vector<CubeWork> works;
+    std::vector<CubeEdits> cubes;
     std::vector<std::size_t> first;
     for (; n < faces.size() && faces[n].Colour == colour; ++n)
     {
       if (first.empty() || faces[n].Cube != faces[n - 1].Cube)
       {
         first.push_back(n);
-        works.emplace_back(this->Mesh, this->Clearance,
+        cubes.emplace_back(this->Mesh, this->Clearance,
           BoxOf(faces[n].Cube, low, side).Grown(MarginInEdges * longest));
       }
     }
     first.push_back(n);
-    // What comes out of its cube is found before the first one is edited.
-    ForSpans(this->Threads, works.size(), 1,
+    // Select the faces of all cubes before the first edit.
+    ForSpans(this->Threads, cubes.size(), 1,
       [&](std::size_t w, std::size_t, std::size_t)
-      { works[w].FindFaces(faces.data() + first[w], faces.data() + first[w + 1]); });
-    ForSpans(this->Threads, works.size(), 1,
-      [&](std::size_t w, std::size_t, std::size_t) { works[w].Run(this->Edits(), visit); });
-    for (CubeWork& work : works)
+      { cubes[w].FindFaces(faces.data() + first[w], faces.data() + first[w + 1]); });
+    ForSpans(this->Threads, cubes.size(), 1,
+      [&](std::size_t w, std::size_t, std::size_t) { cubes[w].Run(this->Edits(), visit); });
+    for (CubeEdits& cube : cubes)
     {
-      count += work.Count;
-      left.push_back(std::move(work.Left));
+      count += cube.Count;
+      remaining.push_back(std::move(cube.Remaining));
     }
   }
-  std::vector<int> rest = Joined(this->Threads, left);
-  std::sort(rest.begin(), rest.end());
+  std::vector<int> serial = Joined(this->Threads, remaining);
+  std::sort(serial.begin(), serial.end());
   InterfaceEdits edits = this->Edits();
-  for (std::size_t n = 0; n < rest.size() && this->GoesOn(n); ++n)
+  for (std::size_t n = 0; n < serial.size() && this->CanContinue(n); ++n)
   {
-    const int face = rest[n];
+    const int face = serial[n];
     count += this->Mesh.Faces[static_cast<std::size_t>(face)].IsThere() ? visit(edits, face) : 0;
   }
   return count;

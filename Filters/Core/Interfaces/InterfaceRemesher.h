@@ -17,25 +17,24 @@ namespace volumic
 /**
  * Passes of edits (InterfaceEdits) over all faces.
  *
- * Collapses and flips, which are most of the work, are made by threads in cubes that space is cut
- * into, each with the faces whose middles are in it. Cubes have eight colours, so that between two
- * of a colour there is at least another one: the colours follow one another, and at the end what
- * has come out of its cube, or has images. In a cube faces follow each other in their order. Cubes
- * are wider than edits reach, so that the edits are the same by any number of threads.
+ * Collapses and flips run in parallel: space is divided into cubes of eight colours. The colours
+ * are processed one after another, the cubes of one colour in parallel, and the faces in a cube in
+ * order. Cubes of one colour are not adjacent and wider than the reach of an edit, so that results
+ * do not depend on the number of threads. Faces that extend too far beyond their cube, or have
+ * periodic images, are processed serially at the end.
  */
 class InterfaceRemesher
 {
 public:
   /**
-   * @param shortest, longest between which edges are wanted, times the mesh's sizes; lengths of the
-   *                  workspace
-   * @param tolerance nearer than that triangles are never
-   * @param goOn      asked now and then, on the calling thread; after false no more edits are made
+   * @param shortest, longest range of edge lengths at size 1, in computational space
+   * @param tolerance triangles at a smaller distance count as intersecting
+   * @param shouldContinue called regularly on the calling thread; returns false to stop editing
    */
   InterfaceRemesher(InterfaceMesh& mesh, double shortest, double longest, double tolerance,
-    Executor& executor, std::function<bool()> goOn);
+    Executor& executor, std::function<bool()> shouldContinue);
 
-  /** All edits once. @return how many were made */
+  // Each function makes one pass over all faces and returns the number of edits.
   int SplitLongEdges();
   int CollapseShortEdges();
   int FlipEdges();
@@ -46,27 +45,30 @@ private:
   {
     return InterfaceEdits(this->Mesh, this->Clearance, this->Shortest, this->Longest);
   }
-  /** For edits that are tried against what is near; splits change nothing for anybody. */
-  void LayGrid();
-  /** Whether to look at this face and those after it. */
-  bool GoesOn(std::size_t face) { return face % FacesPerQuestion != 0 || this->GoOn(); }
-  /** Longer than this no edge is, nor becomes. */
+  /** Build the search structure if it is out of date. Splits do not need it. */
+  void UpdateGrid();
+  /** Return whether to continue with a face. Calls the callback for some faces only. */
+  bool CanContinue(std::size_t n)
+  {
+    return n % FacesPerProgressCall != 0 || this->ShouldContinue();
+  }
+  /** Return an upper bound for the length of all edges during a pass. */
   float LongestEdge() const;
   /**
-   * Visits all faces that are there, those of cubes of a colour by threads.
-   * @param visit int(InterfaceEdits&, int face): how many edits it has made
-   * @return how many all have
+   * Visit all existing faces, in parallel where possible.
+   * @param visit int(InterfaceEdits&, int face), returns the number of edits
+   * @return total number of edits
    */
   template <typename Visit>
   int VisitInCubes(const Visit& visit);
 
-  static constexpr std::size_t FacesPerQuestion = 4096;
+  static constexpr std::size_t FacesPerProgressCall = 4096;
 
   InterfaceMesh& Mesh;
-  std::function<bool()> GoOn;
+  std::function<bool()> ShouldContinue;
   Executor& Threads;
   InterfaceClearance Clearance;
-  bool HasGrid = false; ///< of the mesh as it is
+  bool HasGrid = false; ///< Whether Clearance is up to date.
   double Shortest;
   double Longest;
 };

@@ -4,7 +4,7 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Spans.h"
-#include "Core/Image/WayToZero.h"
+#include "Core/Image/DistanceToZero.h"
 #include "Core/Mesh/LimitedSizes.h"
 #include "Core/Mesh/VertexGrid.h"
 
@@ -18,23 +18,23 @@ namespace volumic
 namespace
 {
 constexpr std::size_t SpanSize = 1024;
-/** Share of the tolerance that is aimed at: steps move vertices along the interfaces. */
-constexpr float AimedShare = 0.8f;
-/** The least factor of a change, so that an edge is split into two or three. */
+/** Target error relative to the tolerance, as later steps move vertices along the interfaces. */
+constexpr float AimedFraction = 0.8f;
+/** Least factor of a size change (1 / sqrt(3)): an edge is split into two or three. */
 constexpr float LeastChange = 0.57735f;
-/** Where fields differ less from place to place nothing is said by how much. */
+/** Lower bound of the slope of half the field difference. */
 constexpr float LeastSlope = 0.3f;
-/** How far an interface is looked for, in smallest distances of voxels or tolerances. */
+/** Search distance for an interface, in the smallest voxel spacing and in tolerances. */
 constexpr float Furthest = 2.f;
 constexpr float FurthestInTolerances = 3.f;
 
-/** How far a face's interface is, negative on the side of the object behind it. */
+/** Signed distances from a face to its interface, negative on the side of the object behind. */
 class FaceDistances
 {
 public:
   FaceDistances(const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance,
     const InterfaceMesh::Face& face)
-    : Fields(fields), Of(face), IsOnSide(mesh.IsSide(face.Front)),
+    : Fields(fields), OwnFace(face), IsOnSide(mesh.IsSide(face.Front)),
       Near(static_cast<float>(tolerance)), Normal(Normalized(mesh.NormalOf(face)))
   {
     for (std::size_t k = 0; k < 3; ++k)
@@ -43,12 +43,11 @@ public:
     }
   }
 
-  /** At its corners. */
   std::array<float, 3> AtCorners() const
   {
     return { this->At(this->Corner[0]), this->At(this->Corner[1]), this->At(this->Corner[2]) };
   }
-  /** At the middles of its edges, each from the corner of its number on, and at its own. */
+  /** Return the distances at the middles of the edges (0-1, 1-2, 2-0) and at the face centre. */
   std::array<float, 4> AtMiddles() const
   {
     const auto& c = this->Corner;
@@ -57,48 +56,49 @@ public:
   }
 
 private:
-  float At(const Vector& place) const
+  float At(const Vector& position) const
   {
     if (this->IsOnSide)
     {
       return 0.f;
     }
-    const auto sample = this->Fields.Between(this->Of.Behind, this->Of.Front, place);
+    const auto sample = this->Fields.Between(this->OwnFace.Behind, this->OwnFace.Front, position);
     const float near = sample.Value / std::max(Length(sample.Gradient), LeastSlope);
     return std::abs(near) <= this->Near
       ? -near
-      : SignedWayToZero(place, this->Normal, sample.Value,
+      : SignedDistanceToZero(position, this->Normal, sample.Value,
           std::max(Furthest, FurthestInTolerances * this->Near),
           [this](const Vector& at)
-          { return this->Fields.Between(this->Of.Behind, this->Of.Front, at).Value; });
+          { return this->Fields.Between(this->OwnFace.Behind, this->OwnFace.Front, at).Value; });
   }
 
   const InterfaceFields& Fields;
-  const InterfaceMesh::Face& Of;
-  const bool IsOnSide; ///< of a box
-  const float Near;    ///< Distances up to this are told from values and slopes.
+  const InterfaceMesh::Face& OwnFace;
+  const bool IsOnSide; ///< Whether the face is on a side of the box.
+  const float Near;    ///< Smaller distances are estimated from the value and the slope.
   const Vector Normal;
   std::array<Vector, 3> Corner;
 };
 
-/** Of each vertex by how far what is about it would be off if its corners were not. */
+/** Return the maximum sag (chord error) of the edges and faces at each vertex. */
 LargeVector<float> FindSags(
   const InterfaceMesh& mesh, const InterfaceFields& fields, double tolerance, Executor& executor)
 {
-  std::vector<std::array<float, 4>> ofFaces(mesh.Faces.size());
-  ForSpans(executor, ofFaces.size(), SpanSize,
+  std::vector<std::array<float, 4>> perFace(mesh.Faces.size());
+  ForSpans(executor, perFace.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
       for (std::size_t f = begin; f < end; ++f)
       {
         const FaceDistances distances(mesh, fields, tolerance, mesh.Faces[f]);
-        const std::array<float, 3> off = distances.AtCorners();
-        const std::array<float, 4> there = distances.AtMiddles();
+        const std::array<float, 3> atCorners = distances.AtCorners();
+        const std::array<float, 4> atMiddles = distances.AtMiddles();
         for (std::size_t k = 0; k < 3; ++k)
         {
-          ofFaces[f][k] = std::abs(there[k] - 0.5f * (off[k] + off[(k + 1) % 3]));
+          perFace[f][k] = std::abs(atMiddles[k] - 0.5f * (atCorners[k] + atCorners[(k + 1) % 3]));
         }
-        ofFaces[f][3] = std::abs(there[3] - (off[0] + off[1] + off[2]) * (1.f / 3.f));
+        perFace[f][3] =
+          std::abs(atMiddles[3] - (atCorners[0] + atCorners[1] + atCorners[2]) * (1.f / 3.f));
       }
     });
   LargeVector<float> sags(mesh.Size.size(), 0.f);
@@ -114,26 +114,26 @@ LargeVector<float> FindSags(
             const std::array<int, 3>& corners = mesh.Faces[f].Vertex;
             const auto at = static_cast<std::size_t>(
               std::find(corners.begin(), corners.end(), static_cast<int>(v)) - corners.begin());
-            // Of the edges those that begin and end at it.
+            // Both edges at the vertex, and the face.
             sags[v] =
-              std::max({ sags[v], ofFaces[f][at], ofFaces[f][(at + 2) % 3], ofFaces[f][3] });
+              std::max({ sags[v], perFace[f][at], perFace[f][(at + 2) % 3], perFace[f][3] });
           });
       }
     });
   return sags;
 }
 
-/** The vertices at their places. */
-void LayGrid(VertexGrid& grid, const LargeVector<Vector>& places, float cell, Executor& executor)
+void FillGrid(
+  VertexGrid& grid, const LargeVector<Vector>& positions, float cell, Executor& executor)
 {
-  Box box = { places.front(), places.front() };
-  for (const Vector& p : places)
+  Box box = { positions.front(), positions.front() };
+  for (const Vector& p : positions)
   {
     box = box.With({ p, p });
   }
   grid.Reset(box.Low, box.High, cell);
   grid.InsertAll(
-    places, 0, [](int) { return true; }, executor);
+    positions, 0, [](int) { return true; }, executor);
 }
 }
 
@@ -144,7 +144,7 @@ void AdjustSizes(
   {
     return;
   }
-  const float aimed = AimedShare * static_cast<float>(bounds.Tolerance);
+  const float aimed = AimedFraction * static_cast<float>(bounds.Tolerance);
   const float growth = static_cast<float>(bounds.Growth);
   LargeVector<float> sizes = FindSags(mesh, fields, bounds.Tolerance, executor);
   for (std::size_t v = 0; v < sizes.size(); ++v)
@@ -154,12 +154,12 @@ void AdjustSizes(
       mesh.Size[v] * std::clamp(change, LeastChange, growth), 1.f, static_cast<float>(bounds.Most));
   }
   VertexGrid grid;
-  LayGrid(grid, mesh.Position, static_cast<float>(mesh.MeanEdge()), executor);
+  FillGrid(grid, mesh.Position, static_cast<float>(mesh.MeanEdge()), executor);
   mesh.Size =
     LimitedSizes(sizes, mesh.Position, grid, 1.f, static_cast<float>(bounds.Gradation), executor);
   for (std::size_t v = 0; v < sizes.size(); ++v)
   {
-    // Round its ring it meets the least one, and so has each.
+    // All images get the smallest of their sizes.
     for (int w = mesh.NextImage[v]; w != static_cast<int>(v);
          w = mesh.NextImage[static_cast<std::size_t>(w)])
     {

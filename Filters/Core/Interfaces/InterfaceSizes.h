@@ -12,24 +12,23 @@
 
 namespace volumic
 {
-/** What the sizes of interfaces may be. */
 struct SizeBounds
 {
-  double Tolerance; ///< how far faces may be from where their objects' fields are the same; workspace
-  double Growth;    ///< by what factor a size may grow
-  double Most;      ///< what it may be
-  double Gradation; ///< by how much sizes may grow per length, along interfaces and across space
+  double Tolerance; ///< allowed distance of faces from the interfaces of the fields
+  double Growth;    ///< maximum growth factor of a size per call
+  double Most;      ///< maximum size
+  double Gradation; ///< maximum growth of sizes per length, along interfaces and across space
 };
 
 /**
- * Changes the sizes of a mesh towards what keeps a tolerance, as those of a graded surface are
- * (GradedSizes): from how far the middles of faces and edges are from the interfaces, less how far
- * their corners are, as vertices of junction lines are off on purpose.
+ * Adjust the vertex sizes of a mesh to a tolerance, as GradedSizes does for surfaces. The error is
+ * the distance of the middles of faces and edges from the interfaces, minus that of their corners,
+ * as vertices of junction lines are displaced on purpose (VertexTargets).
  */
-void AdjustSizes(InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds,
-  Executor& executor);
+void AdjustSizes(
+  InterfaceMesh& mesh, const InterfaceFields& fields, const SizeBounds& bounds, Executor& executor);
 
-/** How far faces are from where their objects' fields are the same, in their middles and their edges'. */
+/** Measure the distances of face centres and edge middles from the interfaces of the fields. */
 Fit MeasureFit(const InterfaceMesh& mesh, const InterfaceFields& fields,
   const std::vector<int>& faces, double tolerance);
 }

@@ -15,18 +15,18 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Where a layer of voxels of the grid is in the map: of a periodic box the halves are between. */
+/** Voxel layer of the map that corresponds to a layer of the grid. */
 struct LayerOfGrid
 {
   int Voxel = 0;
   bool IsOutside = false;
-  bool IsHalf = false; ///< the outer half of a voxel, also between it and the one before
+  bool IsHalf = false; ///< The outer half-layer of a periodic box, between Voxel - 1 and Voxel.
 };
 
 std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
 {
-  const VoxelBox box = fields.HaveBox() ? fields.Bricks().Inside()
-                                        : VoxelBox::Of(fields.Bricks().Map().Size());
+  const VoxelBox box =
+    fields.HaveBox() ? fields.Bricks().Inside() : VoxelBox::Of(fields.Bricks().Map().Size());
   std::vector<LayerOfGrid> layers;
   for (int voxel = box.First[axis]; voxel < box.End[axis]; ++voxel)
   {
@@ -45,7 +45,7 @@ std::vector<LayerOfGrid> LayersAlong(const InterfaceFields& fields, int axis)
   return layers;
 }
 
-/** Objects by the voxels of all their parts, then by their numbers; 0, and then what is about the box. */
+/** Return the ranks (StartInterfaces). The outside of the box comes last. */
 std::vector<int> RanksOf(const LabelBricks& bricks)
 {
   const LabelMap& map = bricks.Map();
@@ -53,19 +53,19 @@ std::vector<int> RanksOf(const LabelBricks& bricks)
   std::vector<std::int64_t> voxels(count + 1, 0);
   for (std::size_t object = 1; object <= count; ++object)
   {
-    voxels[map.Whole(static_cast<int>(object))] +=
-      bricks.ExtentOf(static_cast<int>(object)).Voxels;
+    voxels[map.Whole(static_cast<int>(object))] += bricks.ExtentOf(static_cast<int>(object)).Voxels;
   }
   std::vector<int> order(count);
   std::iota(order.begin(), order.end(), 1);
   std::stable_sort(order.begin(), order.end(),
-    [&](int a, int b) { return voxels[static_cast<std::size_t>(a)] < voxels[static_cast<std::size_t>(b)]; });
+    [&](int a, int b)
+    { return voxels[static_cast<std::size_t>(a)] < voxels[static_cast<std::size_t>(b)]; });
   std::vector<int> ranks(count + 2);
   for (std::size_t n = 0; n < count; ++n)
   {
     ranks[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
   }
-  // Parts of one object do not meet.
+  // Parts of one object have one rank, as they do not meet.
   for (std::size_t object = 1; object <= count; ++object)
   {
     ranks[object] = ranks[map.Whole(static_cast<int>(object))];
@@ -107,7 +107,7 @@ public:
         {
           const LayerOfGrid& next = layers[n + 1];
           put(grid.Planes[axis],
-            layer.IsHalf && isFirst      ? layer.Voxel - 0.25
+            layer.IsHalf && isFirst     ? layer.Voxel - 0.25
               : next.IsHalf && !isFirst ? next.Voxel - 0.75
                                         : next.Voxel - 0.5);
         }
@@ -151,7 +151,7 @@ private:
     }
   }
 
-  /** Between voxels the one of those about it whose field is the largest there. */
+  /** Return the object at a grid point; in half-layers the adjacent one with the largest field. */
   Number ObjectAt(const std::array<LayerOfGrid, 3>& layers) const
   {
     const LabelMap& map = this->Fields.Bricks().Map();
@@ -167,29 +167,29 @@ private:
       }
       count *= layers[axis].IsHalf ? 2 : 1;
     }
-    std::array<Number, 8> about;
+    std::array<Number, 8> candidates;
     for (std::size_t n = 0; n < count; ++n)
     {
       voxels[n] = this->Fields.SourceOf(voxels[n]);
-      about[n] = map.At(voxels[n][0], voxels[n][1], voxels[n][2]);
+      candidates[n] = map.At(voxels[n][0], voxels[n][1], voxels[n][2]);
     }
-    std::sort(about.begin(), about.begin() + static_cast<std::ptrdiff_t>(count));
-    Number best = about[0];
+    std::sort(candidates.begin(), candidates.begin() + static_cast<std::ptrdiff_t>(count));
+    Number best = candidates[0];
     float most = -std::numeric_limits<float>::max();
-    for (std::size_t n = 0; n < count && about[0] != about[count - 1]; ++n)
+    for (std::size_t n = 0; n < count && candidates[0] != candidates[count - 1]; ++n)
     {
       float sum = 0.f;
       std::array<float, 8> values;
       for (std::size_t v = 0; v < count; ++v)
       {
-        values[v] = this->Fields.At(about[n], voxels[v][0], voxels[v][1], voxels[v][2]);
+        values[v] = this->Fields.At(candidates[n], voxels[v][0], voxels[v][1], voxels[v][2]);
       }
       std::sort(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(count));
       for (std::size_t v = 0; v < count; ++v)
       {
-        sum += values[v]; // In this order at both of two opposite sides.
+        sum += values[v]; // Sorted, so that opposite sides give bit-identical sums.
       }
-      best = sum > most ? about[n] : best;
+      best = sum > most ? candidates[n] : best;
       most = std::max(most, sum);
     }
     return best;

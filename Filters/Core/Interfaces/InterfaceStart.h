@@ -10,13 +10,13 @@
 namespace volumic
 {
 /**
- * The first interfaces of the objects of a label map: those of their voxels (MakeDualMesh). Of two
- * objects that meet across a voxel edge that of fewer voxels holds together, then that of the lower
- * number; object 0 is the last one.
+ * Create the initial interfaces of a label map from its voxels (MakeDualMesh). Of two objects that
+ * meet across a voxel edge, the one with fewer voxels is connected, then the one with the lower
+ * number. Object 0 has the highest rank.
  *
- * Objects that end at a box end at the outer faces of its voxels. In a periodic one the layer of
- * voxels at a side is halved: the outer half has, at both of two opposite sides, the object whose
- * field is the largest between the first voxel and the last one.
+ * Objects that end at a box end at the outer faces of its voxels. In a periodic box, each layer of
+ * voxels at a side is halved. On both opposite sides, the outer half gets the object with the
+ * largest field between the first and the last voxel.
  */
 InterfaceMesh StartInterfaces(const InterfaceFields& fields, Executor& executor);
 }

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/MakeInterfaces.h"
 
-#include "Core/Common/AskingExecutor.h"
+#include "Core/Common/CancellableExecutor.h"
 #include "Core/Interfaces/InterfaceFit.h"
-#include "Core/Interfaces/InterfaceStart.h"
 #include "Core/Interfaces/InterfaceMotion.h"
 #include "Core/Interfaces/InterfaceRemesher.h"
 #include "Core/Interfaces/InterfaceSizes.h"
-#include "Core/Interfaces/NarrowPlaces.h"
+#include "Core/Interfaces/InterfaceStart.h"
+#include "Core/Interfaces/NearDegenerateRegions.h"
 #include "Core/Interfaces/TriangleShape.h"
 
 #include <algorithm>
@@ -20,55 +20,53 @@ namespace volumic
 {
 namespace
 {
-/** Rounds in which short edges are collapsed, */
+/** Number of first rounds, in which short edges are collapsed. */
 constexpr int Rounds = 2;
-/** then those of splits, flips and steps alone, at least and at most: */
+/**
+ * Without a tolerance: minimum and maximum number of last rounds, which only split, flip and move.
+ * They end when misclassified voxels are few (relative to the vertices) and volume errors small.
+ */
 constexpr int LeastLastRounds = 1;
 constexpr int MostLastRounds = 6;
-/** while more voxels are on the wrong side than this share of the vertices, */
-constexpr double FewWrong = 0.01;
-/** or the volume of an object is off by more than this share. */
-constexpr double FairVolume = 0.005;
-/** With a tolerance there are other last rounds; by what factor sizes may grow in each of them. */
+constexpr double FewMisclassified = 0.01;
+constexpr double FairVolumeError = 0.005;
+/** With a tolerance: maximum growth factor of the sizes in each of the last rounds. */
 constexpr std::array<double, 3> Growths = { 2.5, 1.5, 1.1 };
-/** The round from which on vertices are so near to their places that fields are changed. */
+/** First round in which vertices are near enough to the interfaces to correct the fields. */
 constexpr int FirstFit = 1;
-/** Rounds of slivers' repair at the end: one makes some anew. */
+/** Passes of sliver removal at the end, as one pass may create new slivers. */
 constexpr int LastSliverRounds = 3;
-/** Steps of vertices in a round; the first one has too many of them. */
+/** Steps of vertices per round; the first round has one, as it has more vertices. */
 constexpr int Steps = 2;
-/** Shorter edge lengths get additional first steps, */
+/** Edge lengths below LeastCollapsed get StepsOfFine additional first steps. */
 constexpr double LeastCollapsed = 1.25;
-/** of this number, */
 constexpr int StepsOfFine = 6;
-/** each at most this long, in the shortest edge of a vertex. */
+/** Maximum length of each of these steps, relative to the shortest edge of the vertex. */
 constexpr double FineStep = 0.2;
-/** Edges that are split and collapsed, in the mean length. */
-constexpr double LongestShare = 4. / 3.;
-constexpr double ShortestShare = 4. / 5.;
-/** In the last rounds those are split that steps have drawn out. */
-constexpr double LongestLast = 1.8;
-/** How much longer than they are edges are made in a round. */
-constexpr double MostGrowth = 3.;
-/** No step makes an edge shorter than that, in the same. */
-constexpr double LeastShare = 0.5;
-/** Nearer triangles count as intersecting, in the same. */
+/** Lengths of edges that are split and collapsed, relative to the mean edge length. */
+constexpr double LongestFactor = 4. / 3.;
+constexpr double ShortestFactor = 4. / 5.;
+/** The same for splits in the last rounds. */
+constexpr double LongestLastFactor = 1.8;
+constexpr double MostGrowth = 3.; ///< of the edge length in a round
+/** Least length to which a step may shorten an edge, relative to the desired edge length. */
+constexpr double LeastEdgeFactor = 0.5;
+/** Distance below which triangles count as intersecting, relative to the desired edge length. */
 constexpr double ToleranceOfEdge = 1e-3;
-/** How far vertices go to the middle of their neighbours. */
-constexpr double StepShare = 0.7;
+constexpr double StepRelaxation = 0.7; ///< see MoveInterfaces()
 
-/** Edges about a part of an object, at most, in the radius of a ball of its volume, */
+/** Maximum edge length of a small object, relative to the radius of a ball of the same volume. */
 constexpr double EdgeInRadius = 0.8;
-/** and at least, in the wanted edge: much shorter ones make searches near long ones slow, */
+/** Least size: shorter edges would make the search near long edges slow. */
 constexpr double LeastSize = 0.35;
-/** and in the workspace: a single voxel needs no shorter ones. */
+/** Least edge length in computational space: sufficient for a single voxel. */
 constexpr double LeastEdge = 0.48;
 
-/** Small objects get shorter edges, to be round and keep their volumes. */
+/** Shorten the edges of small objects, so that these are round and keep their volumes. */
 void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, double edge)
 {
   const std::array<double, 3>& step = fields.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
+  const double voxelVolume = step[0] * step[1] * step[2];
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
     for (const int object : { static_cast<int>(face.Behind), static_cast<int>(face.Front) })
@@ -78,28 +76,27 @@ void ShortenEdgesOfSmall(InterfaceMesh& mesh, const InterfaceFields& fields, dou
         continue;
       }
       const auto voxels = static_cast<double>(fields.Bricks().ExtentOf(object).Voxels);
-      const double radius = std::cbrt(voxels * ofVoxel * 0.2387324); // 3 / (4 pi)
+      const double radius = std::cbrt(voxels * voxelVolume * 0.2387324); // 3 / (4 pi)
       const auto size =
-        static_cast<float>(
-          std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
+        static_cast<float>(std::max({ EdgeInRadius * radius / edge, LeastEdge / edge, LeastSize }));
       for (const int v : face.Vertex)
       {
-        float& of = mesh.Size[static_cast<std::size_t>(v)];
-        of = size < 1.f ? std::min(of, size) : of;
+        float& vertexSize = mesh.Size[static_cast<std::size_t>(v)];
+        vertexSize = size < 1.f ? std::min(vertexSize, size) : vertexSize;
       }
     }
   }
 }
 
-/** A round's edits. @param hasCollapses else edges are split that steps have drawn out */
-void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRounds,
-  Executor& executor, const std::function<bool()>& goOn)
+/** Make the edits of a round. @param hasCollapses if false, only very long edges are split */
+void Edit(InterfaceMesh& mesh, double requested, bool hasCollapses, int sliverRounds,
+  Executor& executor, const std::function<bool()>& shouldContinue)
 {
-  // What is searched near goes with the square of the lengths: they grow by rounds.
-  const double edge = std::min(wanted, MostGrowth * mesh.MeanEdge());
-  const double longest = (hasCollapses ? LongestShare : LongestLast) * edge;
+  // Search cost grows with the squared edge length, so that lengths grow gradually.
+  const double edge = std::min(requested, MostGrowth * mesh.MeanEdge());
+  const double longest = (hasCollapses ? LongestFactor : LongestLastFactor) * edge;
   InterfaceRemesher remesher(
-    mesh, ShortestShare * edge, longest, ToleranceOfEdge * wanted, executor, goOn);
+    mesh, ShortestFactor * edge, longest, ToleranceOfEdge * requested, executor, shouldContinue);
   remesher.SplitLongEdges();
   if (hasCollapses)
   {
@@ -111,38 +108,42 @@ void Edit(InterfaceMesh& mesh, double wanted, bool hasCollapses, int sliverRound
     remesher.RemoveSlivers();
   }
 }
-/** All rounds. @param goOn as MakeInterfaces(); throws StoppedWork, with the mesh safe */
-void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, double& share, const std::function<bool()>& mayGoOn)
+/**
+ * Run all rounds. @param fraction completed fraction
+ * @throws OperationCancelled if cancelled; the mesh is then free of intersections
+ */
+void RunRounds(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& options,
+  Executor& executor, double& fraction, const std::function<bool()>& shouldContinue)
 {
-  // The first round is as much work as all others, as the start has many short edges.
+  // The first round takes half of the time, as the initial mesh has many short edges.
   constexpr int all = 2 * (Rounds + LeastLastRounds);
   const bool isGraded = options.Tolerance > 0.;
   const int rounds = Rounds + (isGraded ? static_cast<int>(Growths.size()) : MostLastRounds);
   const double straightening =
     isGraded ? std::min(options.Tolerance, MostStraightening) : MostStraightening;
-  const auto move = [&](int steps, double stepShare, double leastAngle)
+  const auto move = [&](int steps, double relaxation, double leastAngle)
   {
-    MoveInterfaces(mesh, fields, steps, stepShare, LeastShare * options.Edge,
+    MoveInterfaces(mesh, fields, steps, relaxation, LeastEdgeFactor * options.Edge,
       ToleranceOfEdge * options.Edge, leastAngle, executor, straightening);
   };
   mesh = StartInterfaces(fields, executor);
   ShortenEdgesOfSmall(mesh, fields, options.Edge);
-  // Short edges are not collapsed, so that steps alone have to make stairs flat, by and by: what
-  // turns too far at once is taken back.
+  // Fine meshes have no short edges to collapse, so that moves must remove the staircase. The steps
+  // are short, as vertices of faces that turn too far are moved back.
   for (int step = 0; step < StepsOfFine && options.Edge < LeastCollapsed; ++step)
   {
-    MoveInterfaces(mesh, fields, 1, StepShare, 0., ToleranceOfEdge * options.Edge, 0., executor,
-      straightening, FineStep);
+    MoveInterfaces(mesh, fields, 1, StepRelaxation, 0., ToleranceOfEdge * options.Edge, 0.,
+      executor, straightening, FineStep);
   }
-  std::size_t wrong = 0;
+  std::size_t misclassified = 0;
   double worstVolume = 0.;
   for (int round = 0; round < rounds; ++round)
   {
-    const bool hasFewWrong =
-      static_cast<double>(wrong) <= FewWrong * static_cast<double>(mesh.Position.size());
+    const bool hasFewMisclassified = static_cast<double>(misclassified) <=
+      FewMisclassified * static_cast<double>(mesh.Position.size());
     const bool isLast = round >= Rounds;
-    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewWrong && worstVolume < FairVolume)
+    if (!isGraded && round >= Rounds + LeastLastRounds && hasFewMisclassified &&
+      worstVolume < FairVolumeError)
     {
       break;
     }
@@ -154,49 +155,50 @@ void Work(InterfaceMesh& mesh, InterfaceFields& fields, const InterfaceOptions& 
         executor);
       ShortenEdgesOfSmall(mesh, fields, options.Edge);
     }
-    Edit(mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, mayGoOn);
+    Edit(
+      mesh, options.Edge, isGraded || !isLast, round >= FirstFit ? 1 : 0, executor, shouldContinue);
     mesh.Compact();
     if (round >= FirstFit)
     {
       worstVolume = CorrectVolumes(mesh, fields, options.Tolerance, executor);
-      wrong = PushWrongVoxels(
+      misclassified = PushMisclassifiedVoxels(
         mesh, fields, options.VoxelTolerance + (isLast ? options.Tolerance : 0.), executor);
     }
-    move(round == 0 ? 1 : Steps, StepShare, 0.);
-    share = std::min(1., static_cast<double>(all / 2 + round) / all);
+    move(round == 0 ? 1 : Steps, StepRelaxation, 0.);
+    fraction = std::min(1., static_cast<double>(all / 2 + round) / all);
   }
-  // Of the last steps some slivers are left; without them volumes are a little different again.
-  Edit(mesh, options.Edge, false, LastSliverRounds, executor, mayGoOn);
+  // Remove the slivers of the last steps, and correct the volumes that this changes.
+  Edit(mesh, options.Edge, false, LastSliverRounds, executor, shouldContinue);
   mesh.Compact();
   CorrectVolumes(mesh, fields, options.Tolerance, executor);
   move(1, 0., SliverAngle);
-  NarrowPlaces(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
+  NearDegenerateRegions(mesh, fields, options.Edge, ToleranceOfEdge * options.Edge,
     options.VoxelTolerance + options.Tolerance)
-    .Open(executor, mayGoOn);
+    .Open(executor, shouldContinue);
 }
 }
 
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, const std::function<bool(double share)>& goOn)
+  Executor& executor, const std::function<bool(double fraction)>& progress)
 {
-  double share = 0.;
-  const auto mayGoOn = [&] { return goOn(share); };
-  AskingExecutor asking(executor, mayGoOn);
+  double fraction = 0.;
+  const auto shouldContinue = [&] { return progress(fraction); };
+  CancellableExecutor cancellable(executor, shouldContinue);
   InterfaceMesh mesh;
   try
   {
-    Work(mesh, fields, options, asking, share, mayGoOn);
-    share = 1.;
+    RunRounds(mesh, fields, options, cancellable, fraction, shouldContinue);
+    fraction = 1.;
   }
-  catch (const StoppedWork&)
+  catch (const OperationCancelled&)
   {
-    mesh.Compact(); // What is removed is not handed out.
+    mesh.Compact();
   }
   if (fields.ArePeriodic())
   {
-    mesh.Compact(true); // In both of two opposite sides vertices are numbered in the same order.
+    mesh.Compact(true); // Opposite sides get the same vertex order.
   }
-  mayGoOn();
+  shouldContinue();
   return mesh;
 }
 }

@@ -11,39 +11,41 @@
 
 namespace volumic
 {
-/** How interfaces are made; lengths: workspace. */
+/** Parameters of MakeInterfaces(). Lengths are in computational space. */
 struct InterfaceOptions
 {
-  double Edge = 1.36; ///< mean length of edges that is wanted, where they are not to be longer
-  /** How far voxels may be on the wrong side, in smallest distances of voxels. */
+  double Edge = 1.36; ///< Desired mean edge length at size 1.
+  /** Allowed distance of misclassified voxel centres from an interface, in the smallest spacing. */
   double VoxelTolerance = 0.;
-  /** How far faces may be from the interfaces of the fields; 0: all edges are of one length. */
+  /** Allowed distance of faces from the interfaces of the fields; 0: uniform edge length. */
   double Tolerance = 0.;
-  double MostSize = 4.;   ///< With a tolerance, how many times longer edges may become.
-  double Gradation = 0.3; ///< With a tolerance, by how much they grow per length at most.
+  double MostSize = 4.;   ///< With a tolerance: maximum edge length, relative to Edge.
+  double Gradation = 0.3; ///< With a tolerance: maximum growth of edge lengths per length.
 
-  /** How long edges were at most, in Edge and the size about them: the last step draws some out. */
+  /** Maximum edge length of the result, relative to Edge and the local size. */
   static constexpr double LongestInEdge = 2.2;
 };
 
 /**
- * The interfaces of all objects of a label map, as one conforming mesh without intersections. Not
- * the paper's: what evolves is no closed surface, and does not change its topology.
+ * Create one conforming mesh of the interfaces of all objects of a label map, without
+ * intersections. The method is not in the paper: the mesh is not a closed surface, and its topology
+ * is fixed.
  *
- * 1. The start has the topology of the voxels (StartInterfaces).
- * 2. Rounds of edits (InterfaceRemesher) bring its edges to one length, while its vertices go to
- *    where the fields of the objects beside them are the same (MoveInterfaces).
- * 3. Meanwhile fields are shifted so that each object keeps the volume of its voxels, and changed
- * at voxels that triangles cut off, until these are few.
- * 4. With a tolerance the last rounds are others: edges become as long as it allows (AdjustSizes).
- * 5. At the end narrow triangles, wedges and gaps are opened (NarrowPlaces).
+ * 1. Create the initial mesh with the topology of the voxels (StartInterfaces).
+ * 2. Alternate remeshing to the desired edge length (InterfaceRemesher) and vertex moves to the
+ *    interfaces of the fields (MoveInterfaces).
+ * 3. In these rounds, shift the fields so that each object keeps the volume of its voxels
+ *    (CorrectVolumes), and push misclassified voxels (PushMisclassifiedVoxels).
+ * 4. With a tolerance, lengthen edges in the last rounds as far as it allows (AdjustSizes).
+ * 5. Open narrow triangles, wedges and gaps (NearDegenerateRegions).
  *
- * @param fields   are changed, see 3
- * @param goOn     told the share that is done, on the calling thread, several times a second; after
- *                 false the mesh is what there is by then: safe, but rough, or still empty
+ * @param fields   changed by step 3
+ * @param progress callback with the completed fraction, called on the calling thread several times
+ *                 a second. Returns false to cancel: the mesh is then empty, or not smooth but free
+ *                 of intersections.
  */
 InterfaceMesh MakeInterfaces(InterfaceFields& fields, const InterfaceOptions& options,
-  Executor& executor, const std::function<bool(double share)>& goOn);
+  Executor& executor, const std::function<bool(double fraction)>& progress);
 }
 
 #endif

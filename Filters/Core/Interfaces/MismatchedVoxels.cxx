@@ -19,21 +19,18 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Faces, or voxels, that a thread looks at at a time. */
 constexpr std::size_t SpanSize = 4096;
 
-/** Where a row of voxel centres along x crosses a face. */
 struct FaceCrossing
 {
   std::int64_t Row;
-  double X; ///< voxels
+  double X; ///< in voxels
   int Winding;
   int Face;
 
   bool operator<(const FaceCrossing& other) const
   {
-    return std::tie(this->Row, this->X, this->Face) <
-      std::tie(other.Row, other.X, other.Face);
+    return std::tie(this->Row, this->X, this->Face) < std::tie(other.Row, other.X, other.Face);
   }
 };
 
@@ -95,7 +92,7 @@ private:
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
-    std::vector<std::pair<Number, int>> windings; // of the objects that the row is in
+    std::vector<std::pair<Number, int>> windings; // non-zero winding numbers of objects
     const auto add = [&](Number object, int winding)
     {
       auto at = std::find_if(windings.begin(), windings.end(),
@@ -107,7 +104,7 @@ private:
         windings.erase(at);
       }
     };
-    const auto ofMeshHere = [&]
+    const auto meshObjectHere = [&]
     {
       const auto inside = std::find_if(windings.begin(), windings.end(),
         [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
@@ -115,7 +112,7 @@ private:
     };
     const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
     this->Map.ForParts(voxels,
-      [&](const VoxelBox& part, Number ofMap)
+      [&](const VoxelBox& part, Number mapObject)
       {
         for (int i = part.First[0]; i < part.End[0]; ++i)
         {
@@ -129,10 +126,10 @@ private:
               add(face.Front, -next->Winding);
             }
           }
-          const Number ofMesh = ofMeshHere();
-          if (ofMap != ofMesh)
+          const Number meshObject = meshObjectHere();
+          if (mapObject != meshObject)
           {
-            found.push_back({ { i, j, k }, ofMap, ofMesh });
+            found.push_back({ { i, j, k }, mapObject, meshObject });
           }
         }
       });
@@ -148,9 +145,8 @@ private:
 };
 }
 
-std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
-  Executor& executor)
+std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh, const LabelMap& map,
+  const VoxelBox& box, const std::array<double, 3>& step, double tolerance, Executor& executor)
 {
   std::vector<MismatchedVoxel> found = MismatchFinder(mesh, map, box, step, executor).Find();
   if (tolerance <= 0. || found.empty())

@@ -12,23 +12,22 @@
 
 namespace volumic
 {
-/** A voxel whose centre a mesh has in another object than the map. */
+/** A voxel whose centre is in different objects in the mesh and in the map. */
 struct MismatchedVoxel
 {
   std::array<int, 3> At;
-  LabelMap::Number OfMap;
-  LabelMap::Number OfMesh;
-  bool IsFar = true; ///< further from the interfaces than the tolerance
+  LabelMap::Number MapObject;
+  LabelMap::Number MeshObject;
+  bool IsFar = true; ///< Whether it is further from the interfaces than the tolerance.
 };
 
 /**
- * The voxels of a box with their centres on the wrong side of interfaces, in their order.
- * @param step      lengths of a voxel in the workspace
- * @param tolerance workspace
+ * Find the misclassified voxels of a box, in x-fastest order.
+ * @param step      size of a voxel in computational space
+ * @param tolerance distance in computational space, see MismatchedVoxel::IsFar
  */
-std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh,
-  const LabelMap& map, const VoxelBox& box, const std::array<double, 3>& step, double tolerance,
-  Executor& executor);
+std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh, const LabelMap& map,
+  const VoxelBox& box, const std::array<double, 3>& step, double tolerance, Executor& executor);
 }
 
 #endif

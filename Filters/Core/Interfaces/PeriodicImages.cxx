@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What InterfaceMesh knows of the opposite sides of a periodic box.
+// Functions of InterfaceMesh for the opposite sides of a periodic box.
 
 #include "Core/Interfaces/InterfaceMesh.h"
 
@@ -12,11 +12,11 @@ namespace volumic
 {
 namespace
 {
-using Place = std::array<float, 3>;
+using Coordinates = std::array<float, 3>;
 
-Place CoordinatesOf(const Vector& place)
+Coordinates CoordinatesOf(const Vector& coordinates)
 {
-  return { place.X, place.Y, place.Z };
+  return { coordinates.X, coordinates.Y, coordinates.Z };
 }
 }
 
@@ -30,31 +30,31 @@ void InterfaceMesh::JoinImages(const std::vector<int>& images)
 
 void InterfaceMesh::MatchSides()
 {
-  std::map<Place, std::vector<int>> found; // by their place at the first sides
+  std::map<Coordinates, std::vector<int>> found; // keyed by the position moved to the first sides
   for (std::size_t v = 0; v < this->Position.size(); ++v)
   {
-    Place place = CoordinatesOf(this->Position[v]);
+    Coordinates coordinates = CoordinatesOf(this->Position[v]);
     bool isOnSide = false;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
       const float first = this->Planes[2 * axis];
       const float last = this->Planes[2 * axis + 1];
-      isOnSide = isOnSide || place[axis] == first || place[axis] == last;
-      place[axis] = place[axis] == last ? first : place[axis];
+      isOnSide = isOnSide || coordinates[axis] == first || coordinates[axis] == last;
+      coordinates[axis] = coordinates[axis] == last ? first : coordinates[axis];
     }
     if (isOnSide)
     {
-      found[place].push_back(static_cast<int>(v));
+      found[coordinates].push_back(static_cast<int>(v));
     }
   }
-  for (const auto& [place, images] : found)
+  for (const auto& [coordinates, images] : found)
   {
-    std::size_t wanted = 1;
+    std::size_t requested = 1;
     for (std::size_t axis = 0; axis < 3; ++axis)
     {
-      wanted *= place[axis] == this->Planes[2 * axis] ? 2 : 1;
+      requested *= coordinates[axis] == this->Planes[2 * axis] ? 2 : 1;
     }
-    if (images.size() != wanted)
+    if (images.size() != requested)
     {
       throw std::logic_error("opposite sides of a periodic box do not match");
     }

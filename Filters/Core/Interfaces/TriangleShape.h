@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/** Twice the radius of the inner circle over that of the outer one: 1 of a regular triangle. */
+/** Return twice the inradius divided by the circumradius: 1 for an equilateral triangle. */
 inline double RadiusRatio(const MeshTriangle& t)
 {
   const VectorD& a = t.Corner[0];
@@ -24,10 +24,10 @@ inline double RadiusRatio(const MeshTriangle& t)
   return product > 0. ? 4. * SquaredLength(Cross(b - a, c - a)) / product : 0.;
 }
 
-/** Triangles with a smaller angle are slivers, radian. */
+/** Triangles with a smaller angle are slivers, in radians. */
 constexpr double SliverAngle = 0.5;
 
-/** Radian: it is opposite the shortest edge. */
+/** Return the smallest angle, which is opposite to the shortest edge, in radians. */
 inline double SmallestAngle(const MeshTriangle& t)
 {
   const VectorD& a = t.Corner[0];

@@ -9,47 +9,44 @@ namespace volumic
 {
 namespace
 {
-/** Shorter steps are none. */
-constexpr float LeastPart = 0.1f;
-/**
- * How far a junction line's vertices go to between their neighbours: lines follow the stairs of
- * voxels less than interfaces do.
- */
+/** Least fraction of a step; a vertex does not move otherwise. */
+constexpr float LeastFraction = 0.1f;
+/** Fraction of the straightening step of junction lines, which reduces the voxel staircase. */
 constexpr float LineSmoothing = 0.8f;
-/** Keeps Newton's steps small where the fields say little, as a share of their squared slopes. */
+/** Damping of the Newton step, relative to the sum of the squared slopes. */
 constexpr double Damping = 0.02;
 }
 
-Vector VertexTargets::Of(int v)
+Vector VertexTargets::TargetOf(int v)
 {
-  const Vector place = this->Mesh.Position[static_cast<std::size_t>(v)];
+  const Vector position = this->Mesh.Position[static_cast<std::size_t>(v)];
   this->Mesh.FindNeighbours(v, this->Neighbours);
   float shortest = SquaredDistance(
-    place, this->Mesh.Position[static_cast<std::size_t>(this->Neighbours.front())]);
+    position, this->Mesh.Position[static_cast<std::size_t>(this->Neighbours.front())]);
   for (const int w : this->Neighbours)
   {
-    shortest =
-      std::min(shortest, SquaredDistance(place, this->Mesh.Position[static_cast<std::size_t>(w)]));
+    shortest = std::min(
+      shortest, SquaredDistance(position, this->Mesh.Position[static_cast<std::size_t>(w)]));
   }
   this->FindObjects(v);
   this->FindEnds();
   const bool isOnLine = !this->Ends.empty();
   const Vector along = isOnLine ? this->AlongLine(v) : this->AlongInterface(v);
-  Vector target = place + Vector(this->AlongSides(VectorD(along))) * this->Share;
+  Vector target = position + Vector(this->AlongSides(VectorD(along))) * this->Relaxation;
   target += this->ToInterfaces(target);
   if (isOnLine)
   {
     target += Vector(this->AlongSides(VectorD(this->Straightening(target))));
   }
-  const Vector way = this->Mesh.OnSides(v, target) - place;
-  const float length = Length(way);
+  const Vector step = this->Mesh.ProjectToSides(v, target) - position;
+  const float length = Length(step);
   const float most = this->Most * std::sqrt(shortest);
-  float part = length > most ? most / length : 1.f;
-  while (part > LeastPart && this->Shortens(place, place + way * part))
+  float fraction = length > most ? most / length : 1.f;
+  while (fraction > LeastFraction && this->Shortens(position, position + step * fraction))
   {
-    part *= 0.5f;
+    fraction *= 0.5f;
   }
-  return part > LeastPart ? place + way * part : place;
+  return fraction > LeastFraction ? position + step * fraction : position;
 }
 
 void VertexTargets::FindObjects(int v)
@@ -63,13 +60,13 @@ void VertexTargets::FindObjects(int v)
   }
 }
 
-bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
+bool VertexTargets::Shortens(const Vector& position, const Vector& target) const
 {
   return std::any_of(this->Neighbours.begin(), this->Neighbours.end(),
     [&](int w)
     {
       const Vector& other = this->Mesh.Position[static_cast<std::size_t>(w)];
-      const float before = Length(other - place);
+      const float before = Length(other - position);
       const float least = 0.5f * (before + std::min(before, this->Shortest));
       return SquaredDistance(other, target) < least * least;
     });
@@ -77,7 +74,7 @@ bool VertexTargets::Shortens(const Vector& place, const Vector& target) const
 
 Vector VertexTargets::AlongInterface(int v) const
 {
-  const VectorD place(this->Mesh.Position[static_cast<std::size_t>(v)]);
+  const VectorD position(this->Mesh.Position[static_cast<std::size_t>(v)]);
   VectorD normal;
   VectorD sum;
   double areas = 0.;
@@ -93,20 +90,20 @@ Vector VertexTargets::AlongInterface(int v) const
         size += this->Mesh.Size[static_cast<std::size_t>(w)] * (1. / 3.);
         middle += VectorD(this->Mesh.Position[static_cast<std::size_t>(w)]) * (1. / 3.);
       }
-      // Larger ones are not to draw vertices from where they are to be smaller.
+      // Divide by the size: large faces must not attract vertices from regions of small faces.
       const double area = Length(across) / (size * size);
       normal += across;
-      sum += (middle - place) * area;
+      sum += (middle - position) * area;
       areas += area;
     });
   if (!(areas > 0.))
   {
     return Vector();
   }
-  // The middle of faces is two thirds of the way to that of the neighbours.
-  const VectorD way = sum * (1.5 / areas);
+  // The mean of the face centres is at 2/3 of the distance to the mean of the neighbours.
+  const VectorD step = sum * (1.5 / areas);
   const VectorD unit = Normalized(normal);
-  return Vector(way - unit * Dot(way, unit));
+  return Vector(step - unit * Dot(step, unit));
 }
 
 Vector VertexTargets::AlongLine(int v) const
@@ -120,17 +117,17 @@ Vector VertexTargets::AlongLine(int v) const
     Dot(along, this->MiddleOfEnds() - this->Mesh.Position[static_cast<std::size_t>(v)]);
 }
 
-Vector VertexTargets::Straightening(const Vector& place) const
+Vector VertexTargets::Straightening(const Vector& position) const
 {
-  Vector way = this->MiddleOfEnds() - place;
+  Vector step = this->MiddleOfEnds() - position;
   if (this->Ends.size() == 2)
   {
     const Vector along = Normalized(this->Ends[1] - this->Ends[0]);
-    way -= along * Dot(along, way);
+    step -= along * Dot(along, step);
   }
-  const float length = Length(way);
-  return length * LineSmoothing > this->Straightest ? way * (this->Straightest / length)
-                                                    : way * LineSmoothing;
+  const float length = Length(step);
+  return length * LineSmoothing > this->Straightest ? step * (this->Straightest / length)
+                                                    : step * LineSmoothing;
 }
 
 Vector VertexTargets::MiddleOfEnds() const
@@ -150,15 +147,15 @@ void VertexTargets::FindEnds()
     [this](int w) { this->Ends.push_back(this->Mesh.Position[static_cast<std::size_t>(w)]); });
 }
 
-Vector VertexTargets::ToInterfaces(const Vector& place) const
+Vector VertexTargets::ToInterfaces(const Vector& position) const
 {
   double matrix[3][3] = { { 0., 0., 0. }, { 0., 0., 0. }, { 0., 0., 0. } };
   VectorD right;
-  const InterfaceFields::Sample first = this->Fields.Interpolate(this->Objects.front(), place);
+  const InterfaceFields::Sample first = this->Fields.Interpolate(this->Objects.front(), position);
   double slopes = 0.;
   for (std::size_t n = 1; n < this->Objects.size(); ++n)
   {
-    const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], place);
+    const InterfaceFields::Sample other = this->Fields.Interpolate(this->Objects[n], position);
     const VectorD slope = this->AlongSides(VectorD(other.Gradient - first.Gradient));
     const double difference = static_cast<double>(other.Value) - first.Value;
     const double s[3] = { slope.X, slope.Y, slope.Z };

@@ -12,71 +12,71 @@
 
 namespace volumic
 {
-/** How far a vertex may go in a step, in its shortest edge. */
+/** Maximum length of a step of a vertex, relative to its shortest edge. */
 constexpr double MostOfEdge = 0.5;
 
-/** How far vertices of junction lines go from where the fields have them; workspace. */
+/** Maximum distance of junction line vertices from the lines of the fields, computational space. */
 constexpr double MostStraightening = 0.3;
 
 /**
- * Where the vertices of interfaces go in a step: along their interface or junction line to the
- * middle of their neighbours, by a share of the way, then to where the fields of all objects about
- * them are the same (Newton), and no further than a share of their shortest edge.
+ * Computes the target positions of vertices in a step. A vertex moves along its interface or
+ * junction line towards the middle of its neighbours (tangential smoothing). It then moves to the
+ * position at which the fields of all adjacent objects are equal (Newton step). Vertices of
+ * junction lines are finally moved towards a straight line.
  */
 class VertexTargets
 {
 public:
   /**
-   * @param shortest      no edge is made shorter than that; workspace
-   * @param straightening how far vertices of junction lines go towards straight ones, at most;
-   *                      workspace
+   * Lengths are in computational space.
+   * @param relaxation    fraction of the tangential smoothing step
+   * @param shortest      no edge is made shorter than this length
+   * @param straightening maximum distance by which vertices of junction lines are straightened
+   * @param mostOfEdge    maximum length of a step, relative to the shortest edge of the vertex
    */
-  VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double share,
+  VertexTargets(const InterfaceMesh& mesh, const InterfaceFields& fields, double relaxation,
     double shortest, double straightening = MostStraightening, double mostOfEdge = MostOfEdge)
-    : Mesh(mesh), Fields(fields), Share(static_cast<float>(share)),
-      Most(static_cast<float>(mostOfEdge)),
-      Shortest(static_cast<float>(shortest)), Straightest(static_cast<float>(straightening))
+    : Mesh(mesh), Fields(fields), Relaxation(static_cast<float>(relaxation)),
+      Most(static_cast<float>(mostOfEdge)), Shortest(static_cast<float>(shortest)),
+      Straightest(static_cast<float>(straightening))
   {
   }
 
-  Vector Of(int v);
+  Vector TargetOf(int v);
 
 private:
-  /** The objects about it, and which ways it may go where sides of a box are among them. */
+  /** Find the objects at a vertex, and the axes along which sides of a box allow it to move. */
   void FindObjects(int v);
-  VectorD AlongSides(const VectorD& way) const
+  VectorD AlongSides(const VectorD& step) const
   {
-    return { way.X * this->Free[0], way.Y * this->Free[1], way.Z * this->Free[2] };
+    return { step.X * this->Free[0], step.Y * this->Free[1], step.Z * this->Free[2] };
   }
-  /**
-   * Whether it would make an edge too short, if the neighbour did the same: two corners of the same
-   * objects want to be in one place.
-   */
-  bool Shortens(const Vector& place, const Vector& target) const;
-  /** To the middle of its faces, by their areas for their sizes, without what is across. */
+  /** Return whether a move makes an edge too short if the neighbour moves likewise. */
+  bool Shortens(const Vector& position, const Vector& target) const;
+  /** Return the tangential vector to the area-weighted mean of the faces. */
   Vector AlongInterface(int v) const;
-  /** To the middle of its two neighbours on the line, without what is across; 0 of a corner. */
+  /** Return the tangential vector to the middle of both neighbours on the line; 0 at a corner. */
   Vector AlongLine(int v) const;
   /**
-   * From a place some way to the straight line between the neighbours on the junction line, of a
-   * corner to the middle of its neighbours on all lines.
+   * Return the displacement towards the straight line between both neighbours on the line. At a
+   * corner: towards the mean of its neighbours on all lines.
    */
-  Vector Straightening(const Vector& place) const;
+  Vector Straightening(const Vector& position) const;
   Vector MiddleOfEnds() const;
   void FindEnds();
-  /** The least step that makes the fields of all objects about it the same. */
-  Vector ToInterfaces(const Vector& place) const;
+  /** Return the shortest step that makes the fields of all adjacent objects equal. */
+  Vector ToInterfaces(const Vector& position) const;
 
   const InterfaceMesh& Mesh;
   const InterfaceFields& Fields;
-  float Share;
-  float Most; ///< of its shortest edge, what a vertex may go
+  float Relaxation;
+  float Most; ///< maximum step, relative to the shortest edge
   float Shortest;
   float Straightest;
-  std::vector<int> Neighbours; ///< of the vertex that is looked at
-  std::vector<int> Objects;    ///< about it, without sides of a box
-  std::array<double, 3> Free;  ///< of each axis 1, or 0 where it is at a side across it
-  std::vector<Vector> Ends;    ///< its neighbours on junction lines
+  std::vector<int> Neighbours; ///< of the current vertex
+  std::vector<int> Objects;    ///< adjacent objects, without sides of a box
+  std::array<double, 3> Free;  ///< 1 for each free axis, 0 for the normal of a side at the vertex
+  std::vector<Vector> Ends;    ///< positions of the neighbours on junction lines
 };
 }
 

@@ -12,7 +12,7 @@ namespace volumic
 {
 namespace
 {
-/** One side of a Gaussian, from the middle on, which with its mirror image adds up to 1. */
+/** Normalized weights of a symmetric Gaussian kernel, from the middle on. */
 class Weights
 {
 public:
@@ -33,8 +33,8 @@ public:
   int Reach() const { return static_cast<int>(this->Values.size()) - 1; }
 
   /**
-   * Writes `count` sums, a multiple of 4, of values that are `stride` apart, of which there are
-   * `before` and `after` the middle.
+   * Write `count` weighted sums (a multiple of 4) of values at distance `stride`. There are
+   * `before` values before and `after` values after the middle.
    */
   void Sum(const float* from, std::ptrdiff_t stride, int before, int after, int count,
     float* sums) const
@@ -112,7 +112,7 @@ void BoundaryGaussian::Smooth(const VoxelBits& rows, const VoxelBits& varying,
     [&](std::size_t begin, std::size_t end)
     {
       std::vector<float> alongX(layer);
-      // Rows with what is beyond the box: 0.
+      // Rows with a margin of zeros beyond the box.
       const int margin = (weights[0].Reach() + Lanes::Count - 1) / Lanes::Count * Lanes::Count;
       const std::size_t width = lengthX + 2 * static_cast<std::size_t>(margin);
       std::vector<float> sources(width * static_cast<std::size_t>(box.Length(1)), 0.f);

@@ -12,26 +12,27 @@
 
 namespace volumic
 {
-/** A Gaussian at some voxels of a box, one axis after another, cut off at 3 sigma. */
+/** Separable Gaussian filter for selected voxels of a box, truncated at 3 sigma. */
 class BoundaryGaussian
 {
 public:
-  /** Writes `count` values from voxel (i, j, k) on along x, all of them within the box. */
+  /** Write `count` input values along x, starting at voxel (i, j, k). All are within the box. */
   using Source = std::function<void(int i, int j, int k, int count, float* values)>;
-  /** Gets the smoothed values of a run of voxels. */
+  /** Receive the smoothed values of a run of voxels along x. */
   using Receiver = std::function<void(int i, int j, int k, int count, const float* values)>;
 
   /**
-   * Smooth a source that is 0 outside the box; runs of a layer along z are received on one thread.
-   * @param rows    whole groups of four voxels along x, as the length of their box
-   * @param varying elsewhere each voxel has the value of the next one along x
-   * @param sigma   in voxels of each axis
+   * Smooth a source that is 0 outside the box. All runs of a slice are received on one thread.
+   * @param rows    voxels to compute, in whole groups of four along x. The box has a multiple of
+   *                four voxels along x.
+   * @param varying voxels whose value may differ from the next one along x
+   * @param sigma   standard deviation along each axis, in voxels
    */
   void Smooth(const VoxelBits& rows, const VoxelBits& varying, const std::array<double, 3>& sigma,
     const Source& source, const Receiver& receive, Executor& executor);
 
 private:
-  LargeVector<float> AlongXY; ///< a member, as its memory is used again
+  LargeVector<float> AlongXY; ///< smoothed along x and y; a member, so that its memory is reused
 };
 }
 

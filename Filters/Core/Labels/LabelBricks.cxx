@@ -23,7 +23,7 @@ LabelBricks::LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox
     }
   }
   std::mutex mutex;
-  // Numbers of voxels: the same in whatever order they are added.
+  // The sums are of integers, so that they do not depend on the order of the threads.
   executor.For(static_cast<std::size_t>(map.NumberOfLayers()), 1,
     [&](std::size_t begin, std::size_t end)
     {

@@ -13,26 +13,25 @@
 
 namespace volumic
 {
-/** Which bricks an object is in. */
 struct LabelExtent
 {
   std::int64_t Voxels = 0;
-  VoxelBox Bricks; ///< the box of bricks that have voxels of it
+  VoxelBox Bricks; ///< smallest box of bricks that contains all voxels of the object
 };
 
 /**
- * A label map in bricks of 4 x 4 x 4 voxels, from voxel 0 on: in which of them each object is. What
- * is done about an object is done in the bricks about it only, so that time does not grow with the
- * number of objects times the size of the map. Bricks that end outside the map have object 0, too.
+ * Extents of the objects of a label map in bricks of 4 x 4 x 4 voxels. An object is processed in
+ * the bricks of its extent only, so that the time does not grow with the number of objects times
+ * the size of the map. The extent of object 0 includes the bricks that end outside the map.
  */
 class LabelBricks
 {
 public:
-  static constexpr int Side = 4; ///< of a brick, in voxels
+  static constexpr int Side = 4; ///< edge length of a brick in voxels
 
   /**
-   * The map must outlive it.
-   * @param inside where voxels are counted: what is beyond only goes on with what is there
+   * @param map    must outlive this object
+   * @param inside box in which voxels are counted; voxels beyond it are padding
    */
   LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox& inside);
   LabelBricks(const LabelMap& map, Executor& executor)

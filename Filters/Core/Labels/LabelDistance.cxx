@@ -14,14 +14,14 @@ namespace volumic
 {
 namespace
 {
-/** Where the Gaussian loses voxels, one that is narrower by this factor takes its place, */
+/** Factor by which sigma is repeatedly reduced near missed voxels. */
 constexpr double NarrowerBy = 0.7071067811865476;
-/** until it is as narrow as this, in smallest distances of voxels, */
+/** Least sigma of a narrower Gaussian, in the smallest voxel spacing. */
 constexpr double LeastSigma = 0.95;
-/** fading out from them with this one. */
+/** Sigma of the Gaussian that blends the narrower field with the field around it. */
 constexpr double FadingSigma = 1.25;
 
-/** The quantiles of the normal distribution, from a table: the same bits on any machine. */
+/** Quantiles of the normal distribution, tabulated: results are bit-identical on all machines. */
 class NormalQuantile
 {
 public:
@@ -31,12 +31,12 @@ public:
     return table;
   }
 
-  float At(float share) const
+  float At(float probability) const
   {
-    const float place = std::clamp(share, 0.f, 1.f) * Steps;
-    const int step = std::min(static_cast<int>(place), Steps - 1);
+    const float position = std::clamp(probability, 0.f, 1.f) * Steps;
+    const int step = std::min(static_cast<int>(position), Steps - 1);
     const float* values = this->Values.data() + step;
-    return values[0] + (place - static_cast<float>(step)) * (values[1] - values[0]);
+    return values[0] + (position - static_cast<float>(step)) * (values[1] - values[0]);
   }
 
 private:
@@ -46,13 +46,13 @@ private:
   {
     for (int i = 0; i <= Steps; ++i)
     {
-      const double share = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
+      const double probability = std::clamp(i / static_cast<double>(Steps), 1e-5, 1. - 1e-5);
       double low = -5.;
       double high = 5.;
       for (int halving = 0; halving < 50; ++halving)
       {
         const double middle = 0.5 * (low + high);
-        (0.5 * std::erfc(-middle / std::sqrt(2.)) < share ? low : high) = middle;
+        (0.5 * std::erfc(-middle / std::sqrt(2.)) < probability ? low : high) = middle;
       }
       this->Values[static_cast<std::size_t>(i)] = static_cast<float>(0.5 * (low + high));
     }
@@ -61,35 +61,35 @@ private:
   std::array<float, Steps + 1> Values;
 };
 
-/** Makes the distance of one object. */
 class DistanceMaker
 {
 public:
   DistanceMaker(const LabelSides& sides, const std::array<double, 3>& spacing, LabelField& field,
     Executor& executor)
-    : Sides(sides), Varying(sides.FindChanges(0)), Spacing(spacing), Field(field),
-      Threads(executor)
+    : Sides(sides), Varying(sides.FindChanges(0)), Spacing(spacing), Field(field), Threads(executor)
   {
   }
 
   /**
-   * With less smoothing where voxels would be lost: for what is held to all voxels once the volume
-   * has been made up for, else before, as a thin part may be made too thick by that.
+   * Compute the distance, with a narrower Gaussian near missed voxels.
+   * @param isConstrained whether all voxels are constrained. The volume is then corrected before
+   *                      missed voxels are searched. Otherwise it is corrected at the end, as the
+   *                      correction may thicken thin parts.
    */
-  void Make(double sigma, bool isHeld)
+  void Make(double sigma, bool isConstrained)
   {
     const VoxelBits& rows = this->Field.Rows;
-    this->MakeWith(rows, rows, sigma, isHeld);
+    this->MakeWith(rows, rows, sigma, isConstrained);
     for (double narrower = sigma * NarrowerBy; narrower > LeastSigma; narrower *= NarrowerBy)
     {
-      const VoxelBits lost = this->Sides.FindLost(this->Field, rows, this->Threads);
-      if (lost.IsEmpty())
+      const VoxelBits missed = this->Sides.FindMissed(this->Field, rows, this->Threads);
+      if (missed.IsEmpty())
       {
         break;
       }
-      this->MakeNarrower(rows, lost, narrower, isHeld);
+      this->MakeNarrower(rows, missed, narrower, isConstrained);
     }
-    if (!isHeld)
+    if (!isConstrained)
     {
       this->CorrectVolume(rows, sigma, false);
     }
@@ -121,69 +121,72 @@ private:
     return values.data() + this->Field.Box.NumberOf(i, j, k);
   }
 
-  /** @param corrected where the volume is made up for, if it is: some of the rows */
+  /** @param corrected subset of the rows in which the volume is corrected, if isCorrected */
   void MakeWith(
-    const VoxelBits& rows, const VoxelBits& corrected, double ofGaussian, bool isCorrected)
+    const VoxelBits& rows, const VoxelBits& corrected, double gaussianSigma, bool isCorrected)
   {
-    const auto sigma = static_cast<float>(ofGaussian);
+    const auto sigma = static_cast<float>(gaussianSigma);
     const NormalQuantile& quantiles = NormalQuantile::Table();
-    this->Gaussian.Smooth(rows, this->Varying, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(
+      rows, this->Varying, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->Sides.CopyMembership(i, j, k, count, values); },
-      [&](int i, int j, int k, int count, const float* shares)
+      [&](int i, int j, int k, int count, const float* smoothed)
       {
         float* values = this->At(this->Field.Values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          values[x] = std::clamp(
-            sigma * quantiles.At(shares[x]), -LabelField::Far, LabelField::Far);
+          values[x] =
+            std::clamp(sigma * quantiles.At(smoothed[x]), -LabelField::Far, LabelField::Far);
         }
       },
       this->Threads);
     if (isCorrected)
     {
-      this->CorrectVolume(corrected, ofGaussian, true);
+      this->CorrectVolume(corrected, gaussianSigma, true);
     }
   }
 
-  /** Step 2. @param isHeld as in Make(): what makes a thin part too thick is taken back */
-  void CorrectVolume(const VoxelBits& rows, double ofGaussian, bool isHeld)
+  /** Run step 2. @param isConstrained if false, the correction is reduced at thin parts */
+  void CorrectVolume(const VoxelBits& rows, double gaussianSigma, bool isConstrained)
   {
-    const float perShare = static_cast<float>(ofGaussian) * 2.5066283f; // sqrt(2 pi)
-    this->Others.resize(this->Field.Values.size());
-    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
+    const float scale = static_cast<float>(gaussianSigma) * 2.5066283f; // sqrt(2 pi)
+    this->MissingVolume.resize(this->Field.Values.size());
+    this->Gaussian.Smooth(
+      rows, this->Field.Rows, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyMissingVolume(i, j, k, count, values); },
       [&](int i, int j, int k, int count, const float* missing)
       {
-        float* more = this->At(this->Others, i, j, k);
+        float* more = this->At(this->MissingVolume, i, j, k);
         std::transform(
-          missing, missing + count, more, [perShare](float share) { return share * perShare; });
+          missing, missing + count, more, [scale](float volume) { return volume * scale; });
       },
       this->Threads);
     const auto add = [&](int i, int j, int k, int count, const float* boundary)
     {
       float* values = this->At(this->Field.Values, i, j, k);
-      const float* more = this->At(this->Others, i, j, k);
+      const float* more = this->At(this->MissingVolume, i, j, k);
       for (int x = 0; x < count; ++x)
       {
-        const float less = boundary ? std::max(1.f, boundary[x] * perShare) : 1.f;
-        values[x] = std::clamp(values[x] + more[x] / less, -LabelField::Far, LabelField::Far);
+        const float divisor = boundary ? std::max(1.f, boundary[x] * scale) : 1.f;
+        values[x] = std::clamp(values[x] + more[x] / divisor, -LabelField::Far, LabelField::Far);
       }
     };
-    if (isHeld)
+    if (isConstrained)
     {
-      rows.For(this->Threads,
-        [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
+      rows.For(
+        this->Threads, [&](int i, int j, int k, int count) { add(i, j, k, count, nullptr); });
       return;
     }
-    this->Gaussian.Smooth(rows, this->Field.Rows, this->InVoxels(ofGaussian),
+    this->Gaussian.Smooth(
+      rows, this->Field.Rows, this->InVoxels(gaussianSigma),
       [this](int i, int j, int k, int count, float* values)
       { this->CopyBoundary(i, j, k, count, values); },
       add, this->Threads);
   }
 
-  /** 1 where a small change of the field changes the volume that it has inside. */
+  /** Write 1 where a small change of the field changes the enclosed volume, else 0. */
   void CopyBoundary(int i, int j, int k, int count, float* values) const
   {
     const float* field = this->At(this->Field.Values, i, j, k);
@@ -193,7 +196,7 @@ private:
     }
   }
 
-  /** The membership less what of each voxel is inside by the field; off the rows there is none. */
+  /** Write the membership minus the fraction of each voxel that is inside; 0 outside the rows. */
   void CopyMissingVolume(int i, int j, int k, int count, float* values) const
   {
     this->Sides.CopyMembership(i, j, k, count, values);
@@ -204,46 +207,46 @@ private:
     }
   }
 
-  /** About the voxels that are lost, fading into what there is. */
-  void MakeNarrower(
-    const VoxelBits& rows, const VoxelBits& lost, double sigma, bool isCorrected)
+  /** Recompute the field near missed voxels with a smaller sigma, and blend it with the old one. */
+  void MakeNarrower(const VoxelBits& rows, const VoxelBits& missed, double sigma, bool isCorrected)
   {
     const double cubed = FadingSigma * FadingSigma * FadingSigma;
     const double voxel = this->Spacing[0] * this->Spacing[1] * this->Spacing[2];
-    const auto perShare =
-      static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: 1 at one alone
-    const VoxelBits near = rows & lost.Grown(this->ReachOf(FadingSigma)).InFours();
+    const auto scale =
+      static_cast<float>(15.749610 * cubed / voxel); // (2 pi)^1.5: weight 1 at a single voxel
+    const VoxelBits near = rows & missed.Grown(this->ReachOf(FadingSigma)).InFours();
     LargeVector<float> values = this->Field.Values;
     this->MakeWith(isCorrected ? rows & near.Grown(this->ReachOf(sigma)).InFours() : near, near,
       sigma, isCorrected);
     values.swap(this->Field.Values);
-    this->Gaussian.Smooth(near, lost.Grown(0, 1), this->InVoxels(FadingSigma),
-      [&](int i, int j, int k, int count, float* shares)
+    this->Gaussian.Smooth(
+      near, missed.Grown(0, 1), this->InVoxels(FadingSigma),
+      [&](int i, int j, int k, int count, float* smoothed)
       {
         for (int x = 0; x < count; ++x)
         {
-          shares[x] = lost.Has(i + x, j, k) ? 1.f : 0.f;
+          smoothed[x] = missed.Has(i + x, j, k) ? 1.f : 0.f;
         }
       },
-      [&](int i, int j, int k, int count, const float* shares)
+      [&](int i, int j, int k, int count, const float* smoothed)
       {
         float* to = this->At(this->Field.Values, i, j, k);
         const float* narrow = this->At(values, i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          to[x] += std::min(1.f, perShare * shares[x]) * (narrow[x] - to[x]);
+          to[x] += std::min(1.f, scale * smoothed[x]) * (narrow[x] - to[x]);
         }
       },
       this->Threads);
   }
 
   const LabelSides& Sides;
-  const VoxelBits Varying; ///< where the membership does, along x
+  const VoxelBits Varying; ///< voxels whose membership differs from the next one along x
   const std::array<double, 3> Spacing;
   LabelField& Field;
   Executor& Threads;
   BoundaryGaussian Gaussian;
-  LargeVector<float> Others; ///< what volume is missing
+  LargeVector<float> MissingVolume; ///< smoothed missing volume
 };
 }
 

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * Steps 1 and 2 of MakeLabelField(): a smooth distance to the boundary of an object.
- * @param field has the box of the sides; only the voxels of its Rows are written
+ * Compute a smooth signed distance to the boundary of an object: steps 1 and 2 of MakeLabelField().
+ * @param field has the box of `sides`; only the voxels of its Rows are written
  */
 void MakeLabelDistance(const LabelSides& sides, const std::array<double, 3>& spacing,
   const LabelFieldOptions& options, LabelField& field, Executor& executor);

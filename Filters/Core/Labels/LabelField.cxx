@@ -4,8 +4,8 @@
 
 #include "Core/Common/Lanes.h"
 #include "Core/Common/Spans.h"
+#include "Core/Labels/LabelConstraints.h"
 #include "Core/Labels/LabelDistance.h"
-#include "Core/Labels/LabelHold.h"
 #include "Core/Labels/LabelSides.h"
 
 #include <algorithm>
@@ -18,28 +18,26 @@ namespace volumic
 {
 namespace
 {
-/** Only voxels nearer to the boundary than this can come to the wrong side of it. */
-constexpr float MostWrong = 1.5f;
-/** More than that is an edge, which chords do not follow. */
+/** Maximum distance of a voxel from the boundary at which it may become misclassified. */
+constexpr float MostMisclassified = 1.5f;
+/** Maximum curvature: larger values are sharp edges, which the chord correction does not follow. */
 constexpr float MostCurvature = 0.35f;
-/** What the field has at a voxel at least, where not all constraints can be met. */
+/** Least absolute field value at a voxel if not all constraints can be satisfied. */
 constexpr float LeastSize = 0.05f;
-/** Times which it is looked for what a tolerance would lose. */
-constexpr int MostRescues = 4;
-/** Where the field is flatter it is a ridge, and has no bend. */
+/** Maximum number of searches for missed voxels with a tolerance. */
+constexpr int MostMissedSearches = 4;
+/** Least slope for the chord correction: a flatter field has a ridge. */
 constexpr float LeastSlope = 0.2f;
-/** The Laplacian of the distance is taken this near to the boundary. */
-constexpr float MostBent = 2.5f;
+/** Maximum distance from the boundary for the chord correction. */
+constexpr float MostCorrected = 2.5f;
 
-/** Makes the field of one object, step by step. */
 class FieldMaker
 {
 public:
   FieldMaker(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
     Executor& executor, const VoxelBox& within)
     : Map(bricks.Map()), Sides(bricks, object, within), Options(options), Threads(executor),
-      Rows(this->Sides.NearBoundary(
-        LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
+      Rows(this->Sides.NearBoundary(LabelSides::ReachOfFields(options.Sigma, bricks.Map().Spacing)))
   {
   }
 
@@ -51,23 +49,22 @@ public:
     this->Field.Rows = this->Rows;
     if (this->Options.Sigma > 0.)
     {
-      MakeLabelDistance(
-        this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
-      this->CorrectBends();
-      this->Hold();
+      MakeLabelDistance(this->Sides, this->Map.Spacing, this->Options, this->Field, this->Threads);
+      this->CorrectChords();
+      this->Constrain();
     }
     return std::move(this->Field);
   }
 
 private:
-  /** Without smoothing no voxel is on the wrong side of the field. */
+  /** A field without smoothing has no misclassified voxels, and hence no tolerance. */
   bool HasTolerance() const { return this->Options.Tolerance > 0. && this->Options.Sigma > 0.; }
   float* RowAt(int i, int j, int k)
   {
     return this->Field.Values.data() + this->Field.Box.NumberOf(i, j, k);
   }
 
-  /** Without smoothing +-1/2; elsewhere they are what voxels off the rows stay. */
+  /** Set all voxels to +-Far, the final value outside the rows; without smoothing to +-1/2. */
   void FillFarVoxels()
   {
     const float size = this->Options.Sigma > 0. ? LabelField::Far : 0.5f;
@@ -88,7 +85,7 @@ private:
       });
   }
 
-  void CorrectBends()
+  void CorrectChords()
   {
     const VoxelBox& box = this->Field.Box;
     const LargeVector<float> before = this->Field.Values;
@@ -106,17 +103,17 @@ private:
         const int end = std::min(i + count, box.End[0] - 1);
         for (int x = first - i; x < end - i; ++x)
         {
-          if (std::abs(old[x]) < MostBent)
+          if (std::abs(old[x]) < MostCorrected)
           {
             values[x] -=
-              correction * std::clamp(this->BendAt(old + x), -MostCurvature, MostCurvature);
+              correction * std::clamp(this->CurvatureAt(old + x), -MostCurvature, MostCurvature);
           }
         }
       });
   }
 
-  /** What CorrectBends() takes off, as it is at a voxel; there must be others all about. */
-  float BendAt(const float* at) const
+  /** Return the curvature term of the chord correction. All 26 neighbours must be in the box. */
+  float CurvatureAt(const float* at) const
   {
     const VoxelBox& box = this->Field.Box;
     const std::array<std::int64_t, 3> step = { 1, box.Length(0),
@@ -139,7 +136,7 @@ private:
       gradient[a] = 0.5f * inverse[a] * (at[step[a]] - at[-step[a]]);
     }
     float square = 0.f;
-    float across = 0.f; // the second derivative along the gradient, times its square
+    float across = 0.f; // second derivative along the gradient, times its squared length
     for (int a = 0; a < 3; ++a)
     {
       const int b = (a + 1) % 3;
@@ -152,31 +149,32 @@ private:
     return square > LeastSlope * LeastSlope ? laplacian - across / square : 0.f;
   }
 
-  void Hold()
+  void Constrain()
   {
-    if (this->HasTolerance() && !(this->Field.IsStrict.Box() == this->Field.Box))
+    if (this->HasTolerance() && !(this->Field.IsConstrained.Box() == this->Field.Box))
     {
-      this->Field.IsStrict = VoxelBits(this->Field.Box);
+      this->Field.IsConstrained = VoxelBits(this->Field.Box);
     }
-    HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
-    for (int round = 0; this->HasTolerance() && round < MostRescues && this->FindLost(); ++round)
+    ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
+    for (int round = 0; this->HasTolerance() && round < MostMissedSearches && this->FindMissed();
+         ++round)
     {
-      HoldToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
+      ConstrainToLabels(this->Field, this->Map.Spacing, this->FindConstraints());
     }
     this->Rows.For(this->Threads,
       [&](int i, int j, int k, int count)
       {
-        // Kernels reach beyond the constraints, and those may have been too many to be met.
+        // Enforce the sign: kernels reach other voxels, and constraints may contradict each other.
         float* values = this->RowAt(i, j, k);
         for (int x = 0; x < count; ++x)
         {
-          const float side = this->Sides.Of(i + x, j, k);
+          const float side = this->Sides.SideOf(i + x, j, k);
           values[x] = side * std::max(side * values[x], this->LeastAt(i + x, j, k));
         }
       });
   }
 
-  /** The bits of those of four voxels that are less on their side than a number. */
+  /** Return a bit mask of four voxels: whether side * field is less than `least`. */
   unsigned FindLess(int i, int j, int k, float least)
   {
     const Lanes four = Lanes::Load(this->RowAt(i, j, k));
@@ -187,26 +185,26 @@ private:
 
   float LeastAt(int i, int j, int k) const
   {
-    return this->IsStrict(i, j, k) ? LeastSize
-                                   : LeastSize - static_cast<float>(this->Options.Tolerance);
+    return this->IsConstrained(i, j, k) ? LeastSize
+                                        : LeastSize - static_cast<float>(this->Options.Tolerance);
   }
 
-  bool IsStrict(int i, int j, int k) const
+  bool IsConstrained(int i, int j, int k) const
   {
-    return !this->HasTolerance() || this->Field.IsStrict.Has(i, j, k);
+    return !this->HasTolerance() || this->Field.IsConstrained.Has(i, j, k);
   }
 
-  /** Has those be strict that are wrong, as are all of their side beside them. @return any new */
-  bool FindLost()
+  /** Add missed voxels (LabelSides::FindMissed) to IsConstrained. @return whether any are new */
+  bool FindMissed()
   {
-    const VoxelBits lost =
-      this->Sides.FindLost(this->Field, this->Rows, this->Threads) - this->Field.IsStrict;
-    this->Field.IsStrict |= lost;
-    return !lost.IsEmpty();
+    const VoxelBits missed =
+      this->Sides.FindMissed(this->Field, this->Rows, this->Threads) - this->Field.IsConstrained;
+    this->Field.IsConstrained |= missed;
+    return !missed.IsEmpty();
   }
 
-  /** Of a voxel beside one of the other side that is thin: how far the nearest one is. */
-  double WayToThin(int i, int j, int k) const
+  /** Return the distance to the nearest thin neighbour of the other side; 0: none. */
+  double DistanceToThin(int i, int j, int k) const
   {
     const bool side = this->Sides.IsObject(i, j, k);
     double least = 0.;
@@ -228,13 +226,13 @@ private:
 
   double MarginAt(int i, int j, int k) const
   {
-    return this->Thin.Has(i, j, k)     ? this->Options.ThinMargin
+    return this->Thin.Has(i, j, k)    ? this->Options.ThinMargin
       : this->BesideThin.Has(i, j, k) ? this->Options.MarginBesideThin
-      : this->IsStrict(i, j, k)       ? this->Options.Margin
+      : this->IsConstrained(i, j, k)  ? this->Options.Margin
                                       : this->Options.Margin - this->Options.Tolerance;
   }
 
-  /** The voxels whose constraints may not be met, or that one which is not met may change. */
+  /** Return the voxels whose constraints may be violated now or by enforcing others. */
   VoxelBits FindChanging()
   {
     VoxelBits changing = this->BesideThin;
@@ -245,24 +243,23 @@ private:
       {
         for (int x = 0; x < count; x += Lanes::Count)
         {
-          const bool isHeld = !this->HasTolerance() ||
-            this->Field.IsStrict.FourAt(i + x, j, k) != 0 ||
+          const bool isConstrained = !this->HasTolerance() ||
+            this->Field.IsConstrained.FourAt(i + x, j, k) != 0 ||
             this->BesideThin.FourAt(i + x, j, k) != 0;
-          changing.AddFour(
-            i + x, j, k, this->FindLess(i + x, j, k, isHeld ? most : least));
+          changing.AddFour(i + x, j, k, this->FindLess(i + x, j, k, isConstrained ? most : least));
         }
       });
-    constexpr int reach = 2 * ReachOfHold;
+    constexpr int reach = 2 * ConstraintReach;
     return this->Rows & changing.Grown({ reach, reach, reach });
   }
 
   std::vector<VoxelConstraint> FindConstraints()
   {
-    // Within a tolerance nothing is held for being thin.
+    // With a tolerance, only constrained voxels are treated as thin.
     this->Thin = this->Sides.FindThin();
     if (this->HasTolerance())
     {
-      this->Thin &= this->Field.IsStrict;
+      this->Thin &= this->Field.IsConstrained;
     }
     this->BesideThin = this->Sides.FindBeside(this->Thin);
     const VoxelBits rows = this->FindChanging();
@@ -282,18 +279,18 @@ private:
     const float* values = this->RowAt(i, j, k);
     for (int x = 0; x < count; ++x)
     {
-      const float side = this->Sides.Of(i + x, j, k);
+      const float side = this->Sides.SideOf(i + x, j, k);
       if (side * values[x] > 1.f && this->BesideThin.Has(i + x, j, k) &&
         !this->Thin.Has(i + x, j, k))
       {
-        const double way = this->WayToThin(i + x, j, k);
-        if (side * values[x] > way)
+        const double distance = this->DistanceToThin(i + x, j, k);
+        if (side * values[x] > distance)
         {
           constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), -side,
-            static_cast<float>(-this->Options.MostBesideThin * way) });
+            static_cast<float>(-this->Options.MostBesideThin * distance) });
         }
       }
-      if (side * values[x] < MostWrong)
+      if (side * values[x] < MostMisclassified)
       {
         constraints.push_back({ this->Field.Box.NumberOf(i + x, j, k), side,
           static_cast<float>(this->MarginAt(i + x, j, k)) });
@@ -305,9 +302,9 @@ private:
   LabelSides Sides;
   LabelFieldOptions Options;
   Executor& Threads;
-  VoxelBits Rows;       ///< where values are computed
-  VoxelBits Thin;       ///< strict ones whose neighbors along an axis are on the other side
-  VoxelBits BesideThin; ///< those with one of these beside them: they must not take all the way
+  VoxelBits Rows;       ///< voxels to compute
+  VoxelBits Thin;       ///< constrained voxels with both neighbours along an axis on the other side
+  VoxelBits BesideThin; ///< neighbours of thin voxels on the other side
   LabelField Field;
 };
 }

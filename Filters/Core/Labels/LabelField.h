@@ -14,86 +14,83 @@
 
 namespace volumic
 {
-/** How the field of an object is made. Lengths in smallest distances of voxels. */
+/** Parameters of MakeLabelField(). Lengths are in the smallest voxel spacing. */
 struct LabelFieldOptions
 {
-  /** Standard deviation of the Gaussian, the same along all axes. 0: none, the field is +-1/2. */
+  /** Standard deviation of the Gaussian, the same along all axes. 0: no smoothing, field +-1/2. */
   double Sigma = 2.;
   /**
-   * How far from a voxel's centre the isopotential stays: with less it passes so near to the
-   * centre that triangles cut it off, with more stairs come back.
+   * Least distance of the isosurface from a voxel centre. With a smaller value triangles cut off
+   * voxel centres; with a larger one the voxel staircase returns.
    */
   double Margin = 0.1;
   /**
-   * How far it may be on the other side of the centre, if that of a voxel beside it, of the same
-   * side, is where it belongs: so that no part is lost.
+   * Allowed distance of a misclassified voxel centre from the isosurface. It does not apply to a
+   * voxel without a correctly classified face neighbour of the same side, so that no part is lost.
    */
   double Tolerance = 0.;
-  /** The same for a voxel whose two neighbours along an axis are both on the other side, */
+  /** Margin of thin voxels, whose two neighbours along an axis are both on the other side. */
   double ThinMargin = 0.4;
-  /** and for these: with less a part that is a voxel thin gets the thickness of two. */
+  /** Margin of the neighbours of thin voxels; with less, a part 1 voxel thick becomes 2 thick. */
   double MarginBesideThin = 0.25;
   /**
-   * What the same are held to, as a share of the way to the thin one, where the field has them
-   * further outside than that is: the Gaussian leaves a rod, or a single voxel, a fraction of its
-   * width.
+   * Maximum absolute field value at the neighbours of thin voxels, as a fraction of the distance to
+   * the thin voxel. It applies where the value exceeds this distance: the Gaussian alone leaves a
+   * rod or a single voxel a fraction of its width.
    */
   double MostBesideThin = 0.35;
   /**
-   * How much of its Laplacian is taken off the distance: triangles whose corners are on a bent
-   * surface cut off e^2 / 16 of it in the mean, e being the length of their edges. With a Tolerance
-   * only what of it is along the isosurface: across a thin part the field is a ridge, which is no
-   * bend. Without, all of it, which makes up for what is held.
+   * Fraction of the Laplacian that is subtracted from the distance. Triangles with vertices on a
+   * curved surface cut off e^2 / 16 times the curvature in the mean, e being the edge length. With
+   * a Tolerance, only the tangential part of the Laplacian is used, as the field has a ridge in
+   * thin parts. Without, the full Laplacian is used, which compensates for the constraints.
    */
   double ChordCorrection = 0.3;
   /**
-   * Of InterfaceFields: a field in a box of more than eight parts, each so many bricks wide, is made
-   * in such parts, as its memory grows with the box.
+   * Edge length in bricks of the parts in which InterfaceFields computes a large field, to bound
+   * its memory. Fields of at most eight parts are computed at once.
    */
   int PartSize = 48;
 };
 
-/** A field over the voxels of a box, which may reach beyond the map. */
+/** A field on the voxels of a box, which may extend beyond the map. */
 struct LabelField
 {
-  /** It is cut off at this size; voxels that are further away have this one. */
+  /** Maximum absolute value, also the absolute value of all voxels further from the boundary. */
   static constexpr float Far = 4.f;
 
   VoxelBox Box;
   LargeVector<float> Values; ///< positive inside; x fastest
   /** The voxels whose values are computed. */
   VoxelBits Rows;
-  /** With a tolerance: the voxels without one, as no voxel beside them is where it belongs. */
-  VoxelBits IsStrict;
+  /** With a tolerance: voxels to which it does not apply (LabelFieldOptions::Tolerance). */
+  VoxelBits IsConstrained;
 };
 
 /**
- * About the distance to the boundary of an object, positive inside, right by its sign at all voxel
- * centres. It is found from the voxels of this object alone, so that of two objects that meet, with
- * no third one near, one's is the other's times -1.
+ * Compute the approximate signed distance to the boundary of an object, positive inside. Without a
+ * Tolerance, the sign is correct at all voxel centres. The field depends on the voxels of this
+ * object only. If two objects meet and no third one is near, one field is the negative of the
+ * other.
  *
- * 1. The membership, 1 in the object and 0 elsewhere, smoothed by a Gaussian, g. Of a flat boundary
- *    it is the normal distribution of the distance, whose inverse makes a distance d of it: sigma
- *    times the quantile of g. Where d is wrong at a voxel's centre, and at all of its side beside
- *    it, as in what is thin, a narrower Gaussian takes its place, until none is lost: after step 2,
- *    but with a Tolerance before it.
- * 2. Where the boundary is bent, or the object thin, d is off to one side. The Gaussian of
- *    (membership - clamp(d + 1/2, 0, 1)), the volume that is missing near each place, times
- *    sigma sqrt(2 pi), is added to it. With a Tolerance that factor is less where two boundaries
- *    are near, each of which it moves: over the Gaussian of the places where |d| < 1/2.
- * 3. ChordCorrection.
- * 4. The smallest change, in the norm of which a sum of two Gaussians is the kernel, that gives all
- *    voxel centres the sign that they have in the map, and Margin as size: a quadratic programme,
- *    solved by coordinate ascent in its multipliers, voxel after voxel. With a Tolerance only what
- *    is further off than that is changed, and then what would be lost.
+ * 1. Distance: smooth the membership (1 in the object, 0 elsewhere) with a Gaussian of width sigma.
+ *    At a flat boundary the result g is the normal distribution of the distance. Hence the distance
+ *    is d = sigma * quantile(g). Thin parts may be missed: d has the wrong sign at a voxel centre
+ *    and at all face neighbours of the same side. Near these voxels sigma is reduced until none is
+ *    missed. This is done after step 2, or before step 2 with a Tolerance.
+ * 2. Volume correction: d is biased at curved boundaries and thin parts. Smooth the missing volume,
+ *    membership - clamp(d + 1/2, 0, 1), with the same Gaussian. Add it times sigma * sqrt(2 pi).
+ *    With a Tolerance, reduce this factor where two boundaries are near: divide it by the smoothed
+ *    indicator of |d| < 1/2.
+ * 3. Chord correction (ChordCorrection).
+ * 4. Constraints: apply the smallest change that gives all voxel centres the sign of the map and at
+ *    least the absolute value Margin. The norm is that of the reproducing kernel, a sum of two
+ *    Gaussians. The quadratic programme is solved by coordinate ascent in its multipliers. With a
+ *    Tolerance, only larger errors are corrected, and then those of missed voxels.
  *
- * Tried instead: the sign alone held (single voxels stick out as spikes), the thin plate energy of
- * d under the same constraints (twice the error of the normals), Gaussians of higher order instead
- * of 2 (up to .9 % of the volume is lost).
- *
- * @param within bricks: the field is made in them, and one brick beyond them: of large objects in
- *               parts. The values are those of the whole object further from the ends of the box
- *               than the Gaussian reaches, except for what step 4 carries over.
+ * @param within bricks in which the field is computed, plus one brick beyond them. Use parts for
+ *               large objects. At distances from the ends of the box beyond the reach of the
+ *               Gaussian, the values equal those of the whole object, except for effects of step 4.
  */
 LabelField MakeLabelField(const LabelBricks& bricks, int object, const LabelFieldOptions& options,
   Executor& executor, const VoxelBox& within);

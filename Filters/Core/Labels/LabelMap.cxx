@@ -8,7 +8,7 @@ LabelMap::LabelMap(const std::array<int, 3>& size) : Voxels(size)
 {
   std::transform(size.begin(), size.end(), this->Parts.begin(),
     [](int voxels) { return (voxels + LayerSize - 1) / LayerSize; });
-  this->OfPart.assign(static_cast<std::size_t>(VoxelBox::Of(this->Parts).Count()), 0);
+  this->PartEntries.assign(static_cast<std::size_t>(VoxelBox::Of(this->Parts).Count()), 0);
   this->Mixed.resize(static_cast<std::size_t>(this->Parts[2]));
 }
 
@@ -18,7 +18,7 @@ void LabelMap::Set(int i, int j, int k, Number object)
   {
     return;
   }
-  std::uint32_t& part = this->OfPart[this->PartAt(i, j, k)];
+  std::uint32_t& part = this->PartEntries[this->PartAt(i, j, k)];
   LargeVector<Number>& mixed = this->Mixed[static_cast<std::size_t>(k / LayerSize)];
   if ((part & IsMixed) == 0)
   {
@@ -26,7 +26,7 @@ void LabelMap::Set(int i, int j, int k, Number object)
     part = static_cast<std::uint32_t>(mixed.size() / VoxelsOfPart) | IsMixed;
     mixed.resize(mixed.size() + VoxelsOfPart, all);
   }
-  mixed[(part & ~IsMixed) * VoxelsOfPart + PlaceInPart(i, j, k)] = object;
+  mixed[(part & ~IsMixed) * VoxelsOfPart + IndexInPart(i, j, k)] = object;
 }
 
 VoxelBox LabelMap::Layer(int layer) const
@@ -51,7 +51,7 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
         { (i + 1) * LayerSize, (j + 1) * LayerSize,
           all.End[2] } }.CommonWith(all);
       const Number first = voxels[all.NumberOf(box.First[0], box.First[1], box.First[2])];
-      part.fill(first); // Also what is beyond the map.
+      part.fill(first); // including voxels beyond the map
       bool isMixed = false;
       for (int z = box.First[2]; z < box.End[2]; ++z)
       {
@@ -61,10 +61,10 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
           isMixed = isMixed ||
             std::any_of(
               row, row + box.Length(0), [first](Number object) { return object != first; });
-          std::copy_n(row, box.Length(0), part.begin() + PlaceInPart(0, y, z));
+          std::copy_n(row, box.Length(0), part.begin() + IndexInPart(0, y, z));
         }
       }
-      this->OfPart[this->PartAt(box.First[0], box.First[1], box.First[2])] =
+      this->PartEntries[this->PartAt(box.First[0], box.First[1], box.First[2])] =
         isMixed ? static_cast<std::uint32_t>(mixed.size() / VoxelsOfPart) | IsMixed : first;
       if (isMixed)
       {
@@ -76,12 +76,12 @@ void LabelMap::PutLayer(int layer, const Number* voxels)
 
 LabelMap LabelMap::Part(const VoxelBox& box) const
 {
-  const auto moved = [](VoxelBox by, const std::array<int, 3>& way, int sign)
+  const auto moved = [](VoxelBox by, const std::array<int, 3>& offset, int sign)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      by.First[axis] += sign * way[axis];
-      by.End[axis] += sign * way[axis];
+      by.First[axis] += sign * offset[axis];
+      by.End[axis] += sign * offset[axis];
     }
     return by;
   };

@@ -15,29 +15,30 @@
 namespace volumic
 {
 /**
- * Which object each voxel belongs to. Objects are numbered from 1, 0 is none of them: background,
- * and what is outside the map.
+ * Object number of each voxel. Objects are numbered from 1; 0 is the background and the outside of
+ * the map.
  *
- * Memory grows with the boundaries of the objects, as a part of 8 x 8 x 8 voxels that are all of
- * one object takes only a number. Voxels in different layers of parts may be written at once.
+ * Voxels are stored in parts of 8 x 8 x 8. A part of one object is stored as a single number, so
+ * that memory grows with the boundaries of the objects. Threads may write different layers of parts
+ * concurrently.
  */
 class LabelMap
 {
 public:
   using Number = std::uint16_t;
-  static constexpr int LayerSize = 8; ///< slices of a layer of parts
+  static constexpr int LayerSize = 8; ///< slices per layer of parts
 
   LabelMap() = default;
-  /** All of 0. */
+  /** Create a map of background voxels. */
   explicit LabelMap(const std::array<int, 3>& size);
 
   const std::array<int, 3>& Size() const { return this->Voxels; }
   int NumberOfLayers() const { return this->Parts[2]; }
 
-  /** Distances of voxels along the axes, in the smallest of them, as all lengths of the fields. */
+  /** Voxel spacing along each axis, relative to the smallest one: the unit of all label fields. */
   std::array<double, 3> Spacing = { 1., 1., 1. };
-  int NumberOfObjects = 0; ///< the largest number that a voxel may have
-  /** Of each object that of which it is a part (SeparateParts), of 0 too; empty: each is whole. */
+  int NumberOfObjects = 0;
+  /** Object to which each object, from 0 on, belongs as a part (SeparateParts); empty: no parts. */
   std::vector<Number> WholeOf;
   Number Whole(int object) const
   {
@@ -54,16 +55,15 @@ public:
   }
   void Set(int i, int j, int k, Number object);
 
-  /** @param voxels the slices of a layer, x fastest */
+  /** Set all voxels of a layer. @param voxels slices of the layer, x fastest */
   void PutLayer(int layer, const Number* voxels);
-  /** The slices of a layer, and all of their voxels. */
   VoxelBox Layer(int layer) const;
-  /** Return a map of a box, which may reach beyond this one: there are voxels of 0. */
+  /** Return the map of a box; voxels beyond this map are background. */
   LabelMap Part(const VoxelBox& box) const;
 
   /**
-   * Calls visit(box, object) for boxes of voxels of one object that together are those of a box
-   * within the map; those of a row follow each other.
+   * Call visit(box, object) for boxes of one object each that together cover a box within the map.
+   * Boxes of one row are visited in order of x.
    */
   template <typename Visitor>
   void ForParts(const VoxelBox& box, Visitor&& visit) const
@@ -85,17 +85,17 @@ public:
   }
 
 private:
-  /** Of a part that has a place in its layer's list; others are numbers of objects. */
+  /** Flag in PartEntries: the other bits are an index into Mixed. Otherwise the value is an object.
+   */
   static constexpr std::uint32_t IsMixed = 0x80000000u;
   static constexpr std::size_t VoxelsOfPart =
     static_cast<std::size_t>(LayerSize) * LayerSize * LayerSize;
 
-  /** Of a voxel. Divisions without a sign are faster. */
-  static std::size_t PlaceInPart(unsigned i, unsigned j, unsigned k)
+  /** Return the index of a voxel in its part. Unsigned divisions are faster. */
+  static std::size_t IndexInPart(unsigned i, unsigned j, unsigned k)
   {
     return (k % LayerSize * LayerSize + j % LayerSize) * LayerSize + i % LayerSize;
   }
-  /** The number of the part that a voxel is in. */
   std::size_t PartAt(unsigned i, unsigned j, unsigned k) const
   {
     return i / LayerSize +
@@ -104,11 +104,11 @@ private:
   }
   Number Inside(int i, int j, int k) const
   {
-    const std::uint32_t part = this->OfPart[this->PartAt(i, j, k)];
+    const std::uint32_t part = this->PartEntries[this->PartAt(i, j, k)];
     return (part & IsMixed) == 0
       ? static_cast<Number>(part)
       : this->Mixed[static_cast<unsigned>(k) / LayerSize]
-                   [(part & ~IsMixed) * VoxelsOfPart + PlaceInPart(i, j, k)];
+                   [(part & ~IsMixed) * VoxelsOfPart + IndexInPart(i, j, k)];
   }
 
   template <typename Visitor>
@@ -118,19 +118,20 @@ private:
       { i * LayerSize, j * LayerSize, k * LayerSize },
       { (i + 1) * LayerSize, (j + 1) * LayerSize, (k + 1) * LayerSize }
     }.CommonWith(box);
-    const std::uint32_t what = this->OfPart[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
-    if ((what & IsMixed) == 0)
+    const std::uint32_t entry =
+      this->PartEntries[this->PartAt(i * LayerSize, j * LayerSize, k * LayerSize)];
+    if ((entry & IsMixed) == 0)
     {
-      visit(part, static_cast<Number>(what));
+      visit(part, static_cast<Number>(entry));
       return;
     }
     const Number* voxels =
-      this->Mixed[static_cast<std::size_t>(k)].data() + (what & ~IsMixed) * VoxelsOfPart;
+      this->Mixed[static_cast<std::size_t>(k)].data() + (entry & ~IsMixed) * VoxelsOfPart;
     for (int z = part.First[2]; z < part.End[2]; ++z)
     {
       for (int y = part.First[1]; y < part.End[1]; ++y)
       {
-        const Number* row = voxels + PlaceInPart(0, y, z);
+        const Number* row = voxels + IndexInPart(0, y, z);
         for (int x = part.First[0]; x < part.End[0];)
         {
           const Number object = row[x % LayerSize];
@@ -147,8 +148,8 @@ private:
 
   std::array<int, 3> Voxels = { 0, 0, 0 };
   std::array<int, 3> Parts = { 0, 0, 0 };
-  std::vector<std::uint32_t> OfPart;
-  std::vector<LargeVector<Number>> Mixed; ///< of each layer, the voxels of its parts of several
+  std::vector<std::uint32_t> PartEntries;
+  std::vector<LargeVector<Number>> Mixed; ///< per layer: voxels of the parts with several objects
 };
 }
 

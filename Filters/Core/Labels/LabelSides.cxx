@@ -12,12 +12,11 @@ namespace volumic
 {
 namespace
 {
-/** Vertices of surfaces stay within that many voxels of the boundary between voxels. */
+/** Maximum distance of surface vertices from the voxel boundary, in voxels. */
 constexpr int LeastReach = 2;
-/** A Gaussian moves the boundary at a cube's corner by .82 sigma along each axis. */
+/** A Gaussian moves the boundary at the corner of a cube by 0.82 sigma along each axis. */
 constexpr double ReachInSigmas = 0.85;
 
-/** Calls visit(neighbors) with the voxels whose neighbor is in the set, for each direction. */
 template <typename Visitor>
 void ForNeighbors(const VoxelBits& bits, Visitor&& visit)
 {
@@ -44,7 +43,7 @@ LabelSides::LabelSides(const LabelBricks& bricks, int object, const VoxelBox& wi
   const VoxelBox inMap = box.CommonWith(VoxelBox::Of(bricks.Map().Size()));
   for (const VoxelBox& part : object == 0 ? box.Without(inMap) : std::vector<VoxelBox>())
   {
-    this->Members.Add(part); // Outside the map all is 0.
+    this->Members.Add(part); // Voxels outside the map are background.
   }
   bricks.Map().ForParts(inMap,
     [&](const VoxelBox& part, LabelMap::Number other)
@@ -113,10 +112,10 @@ VoxelBits LabelSides::FindBeside(const VoxelBits& others) const
   return beside;
 }
 
-VoxelBits LabelSides::FindLost(
+VoxelBits LabelSides::FindMissed(
   const LabelField& field, const VoxelBits& rows, Executor& executor) const
 {
-  VoxelBits wrong(this->Box());
+  VoxelBits misclassified(this->Box());
   rows.For(executor,
     [&](int i, int j, int k, int count)
     {
@@ -125,18 +124,18 @@ VoxelBits LabelSides::FindLost(
       {
         const Lanes four = Lanes::Load(values + x);
         const unsigned members = this->Members.FourAt(i + x, j, k);
-        const unsigned right = (LessBits(Lanes(0.f), four) & members) |
-          (LessBits(four, Lanes(0.f)) & ~members);
-        wrong.AddFour(i + x, j, k, ~right & 15u);
+        const unsigned correct =
+          (LessBits(Lanes(0.f), four) & members) | (LessBits(four, Lanes(0.f)) & ~members);
+        misclassified.AddFour(i + x, j, k, ~correct & 15u);
       }
     });
-  if (!wrong.IsEmpty())
+  if (!misclassified.IsEmpty())
   {
-    const VoxelBits right = VoxelBits(this->Box(), true) - wrong;
+    const VoxelBits correct = VoxelBits(this->Box(), true) - misclassified;
     ForNeighbors(this->Members,
       [&](int axis, bool isNext, VoxelBits neighbors)
-      { wrong -= right.Neighbored(axis, isNext) - (neighbors ^= this->Members); });
+      { misclassified -= correct.Neighbored(axis, isNext) - (neighbors ^= this->Members); });
   }
-  return wrong;
+  return misclassified;
 }
 }

@@ -19,10 +19,9 @@ namespace
 {
 using Number = LabelMap::Number;
 
-/** Sides of a box have numbers, too. */
+/** Maximum object number: the sides of a box need numbers as well. */
 constexpr int MostObjects = std::numeric_limits<Number>::max() - 8;
 
-/** Voxels of one object in a row, from one on. */
 struct Run
 {
   std::array<int, 3> First;
@@ -30,7 +29,7 @@ struct Run
   Number Object;
 };
 
-/** Voxels of one object that are joined. */
+/** A 26-connected component of the voxels of an object. */
 struct LabelPart
 {
   Number Object = 0;
@@ -38,11 +37,10 @@ struct LabelPart
   std::vector<Run> Runs;
 };
 
-/** All parts of some objects, in the order of their first voxels. */
+/** Finds all parts of some objects, in the order of their first voxels. */
 class PartFinder
 {
 public:
-  /** @param objects sorted */
   PartFinder(const LabelMap& map, const std::vector<int>& objects)
     : Rows(VoxelBox::Of({ 1, map.Size()[1], map.Size()[2] })), FirstOfRow(1, 0)
   {
@@ -92,7 +90,7 @@ public:
   }
 
 private:
-  /** What follows the last run in its row is part of it. */
+  /** Add a run; merge it with the previous run if it continues this one. */
   void Add(const Run& run)
   {
     const bool isFirst = this->Runs.size() == this->FirstOfRow.back();
@@ -107,7 +105,7 @@ private:
     }
   }
 
-  /** With what touches it there, also by corners. */
+  /** Join a run with the runs of another row that touch it by faces, edges or corners. */
   void JoinWithRow(std::size_t n, int j, int k, DisjointSets& sets) const
   {
     if (!this->Rows.Contains({ 0, j, k }))
@@ -128,15 +126,12 @@ private:
     }
   }
 
-  VoxelBox Rows; ///< by y and z
+  VoxelBox Rows; ///< index range of the rows, by y and z
   std::vector<Run> Runs;
   std::vector<std::size_t> FirstOfRow;
 };
 
-/**
- * What it shares most faces with, of objects that have voxels yet, or 0, the outside; of several
- * the one with the smallest number.
- */
+/** Return the object or background that shares most faces with a part; the first of several. */
 Number NeighbourOf(const LabelPart& part, const LabelMap& map)
 {
   std::map<Number, std::int64_t> faces;
@@ -165,7 +160,7 @@ Number NeighbourOf(const LabelPart& part, const LabelMap& map)
     ->first;
 }
 
-void Give(LabelMap& map, const LabelPart& part, Number object)
+void Assign(LabelMap& map, const LabelPart& part, Number object)
 {
   for (const Run& run : part.Runs)
   {
@@ -176,7 +171,7 @@ void Give(LabelMap& map, const LabelPart& part, Number object)
   }
 }
 
-/** The number of the largest part of each object, that of all parts where it has none. */
+/** Return the index of the largest part of each object; parts.size() if it has none. */
 std::vector<std::size_t> LargestOf(const std::vector<LabelPart>& parts, const LabelMap& map)
 {
   std::vector<std::size_t> largest(static_cast<std::size_t>(map.NumberOfObjects) + 1, parts.size());
@@ -192,30 +187,30 @@ std::vector<std::size_t> LargestOf(const std::vector<LabelPart>& parts, const La
 }
 }
 
-void GiveAwaySmallParts(
+void ReassignSmallParts(
   LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest)
 {
   const std::vector<LabelPart> parts = PartFinder(map, objects).Find();
   const std::vector<std::size_t> largest = LargestOf(parts, map);
-  // All at once, so that none is given to one that goes, too.
-  constexpr Number nobodys = std::numeric_limits<Number>::max();
+  // Mark all small parts first, so that none is assigned to another small part.
+  constexpr Number unassigned = std::numeric_limits<Number>::max();
   for (std::size_t n = 0; n < parts.size(); ++n)
   {
     const bool isSmall = parts[n].Voxels < leastVoxels;
     if (isSmall || (keepsLargest && largest[parts[n].Object] != n))
     {
-      Give(map, parts[n], nobodys);
+      Assign(map, parts[n], unassigned);
     }
   }
-  const std::vector<LabelPart> given = PartFinder(map, { nobodys }).Find();
-  std::vector<Number> to;
-  for (const LabelPart& part : given)
+  const std::vector<LabelPart> unassignedParts = PartFinder(map, { unassigned }).Find();
+  std::vector<Number> neighbours;
+  for (const LabelPart& part : unassignedParts)
   {
-    to.push_back(NeighbourOf(part, map));
+    neighbours.push_back(NeighbourOf(part, map));
   }
-  for (std::size_t n = 0; n < given.size(); ++n)
+  for (std::size_t n = 0; n < unassignedParts.size(); ++n)
   {
-    Give(map, given[n], to[n]);
+    Assign(map, unassignedParts[n], neighbours[n]);
   }
 }
 
@@ -235,13 +230,14 @@ void SeparateParts(LabelMap& map)
   }
   std::stable_sort(others.begin(), others.end(),
     [&](std::size_t a, std::size_t b) { return parts[a].Voxels > parts[b].Voxels; });
-  const auto room = static_cast<std::size_t>(MostObjects - std::min(MostObjects, map.NumberOfObjects));
+  const auto room =
+    static_cast<std::size_t>(MostObjects - std::min(MostObjects, map.NumberOfObjects));
   others.resize(std::min(others.size(), room));
   map.WholeOf.resize(static_cast<std::size_t>(map.NumberOfObjects) + 1);
   std::iota(map.WholeOf.begin(), map.WholeOf.end(), Number(0));
   for (const std::size_t part : others)
   {
-    Give(map, parts[part], static_cast<Number>(map.WholeOf.size()));
+    Assign(map, parts[part], static_cast<Number>(map.WholeOf.size()));
     map.WholeOf.push_back(parts[part].Object);
   }
   map.NumberOfObjects = static_cast<int>(map.WholeOf.size()) - 1;

@@ -11,19 +11,19 @@
 namespace volumic
 {
 /**
- * Give parts of objects, voxels joined by faces, edges or corners, to the object, or the outside,
- * that they share most faces with, of those that are left.
- * @param objects      whose parts these are, sorted; other objects keep theirs
- * @param leastVoxels  parts of fewer voxels are given away
- * @param keepsLargest all parts of an object but its largest, too
+ * Reassign small parts to the remaining object, or the background, with which they share most
+ * faces. A part is a 26-connected component of the voxels of an object.
+ * @param objects      sorted objects whose parts are reassigned
+ * @param leastVoxels  parts with fewer voxels are reassigned
+ * @param keepsLargest whether to reassign all parts of an object except for its largest as well
  */
-void GiveAwaySmallParts(
+void ReassignSmallParts(
   LabelMap& map, const std::vector<int>& objects, std::int64_t leastVoxels, bool keepsLargest);
 
 /**
- * Make each part of an object, joined as above, an object of its own, so that each keeps its
- * volume: the largest part keeps the number, others get numbers above all objects, larger parts
- * first, while there are numbers left; what is left stays with the object. LabelMap::WholeOf tells.
+ * Make each part of an object a separate object, so that the volume of each part is preserved. The
+ * largest part keeps the number of the object. Other parts get new numbers in order of decreasing
+ * size, until no numbers are left; remaining parts stay with the object. LabelMap::WholeOf is set.
  */
 void SeparateParts(LabelMap& map);
 }

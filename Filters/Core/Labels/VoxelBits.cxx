@@ -49,7 +49,6 @@ void VoxelBits::AddShifted(const VoxelBits& others, int axis, int by)
   const auto length = static_cast<std::size_t>(std::abs(by));
   if (axis > 0)
   {
-    // Rows follow each other along y, then along z: parts of a layer, or of the box.
     const std::size_t step =
       words * (axis == 1 ? 1 : static_cast<std::size_t>(this->Voxels.Length(1)));
     const std::size_t block = step * static_cast<std::size_t>(this->Voxels.Length(axis));
@@ -71,9 +70,8 @@ void VoxelBits::AddShifted(const VoxelBits& others, int axis, int by)
     Word* to = this->Bits.data() + first;
     for (std::size_t w = 0; w < words; ++w)
     {
-      to[w] |= by > 0
-        ? from[w] >> length | (w + 1 < words ? from[w + 1] << (WordSize - length) : 0)
-        : from[w] << length | (w > 0 ? from[w - 1] >> (WordSize - length) : 0);
+      to[w] |= by > 0 ? from[w] >> length | (w + 1 < words ? from[w + 1] << (WordSize - length) : 0)
+                      : from[w] << length | (w > 0 ? from[w - 1] >> (WordSize - length) : 0);
     }
     to[words - 1] &= inLast;
   }
@@ -91,7 +89,7 @@ VoxelBits VoxelBits::Grown(int axis, int voxels) const
   VoxelBits grown = *this;
   for (int done = 0; done < voxels;)
   {
-    // What has been grown by n leaves no gaps in two copies that are 2 n + 1 further.
+    // A set dilated by n, shifted by up to 2 n + 1 in both directions, leaves no gaps.
     const int step = std::min({ 2 * done + 1, voxels - done, WordSize - 1 });
     const VoxelBits before = grown;
     grown.AddShifted(before, axis, step);

@@ -23,7 +23,7 @@ class VoxelBits
 
 public:
   VoxelBits() = default;
-  /** All voxels of the box, or none of them. */
+  /** Create a set of all voxels of a box, or of none. */
   explicit VoxelBits(const VoxelBox& box, bool all = false);
 
   const VoxelBox& Box() const { return this->Voxels; }
@@ -34,7 +34,7 @@ public:
     return this->Voxels.Contains({ i, j, k }) &&
       (this->RowAt(j, k)[x / WordSize] >> x % WordSize & 1u) != 0;
   }
-  /** Return bit n for voxel i + n, of four; i is a multiple of 4 from the first of the box. */
+  /** Return four voxels, bit n for voxel i + n; i - Box().First[0] is a multiple of 4. */
   unsigned FourAt(int i, int j, int k) const
   {
     const int x = i - this->Voxels.First[0];
@@ -42,16 +42,16 @@ public:
   }
   bool IsEmpty() const;
 
-  /** Add the voxels of a box, which is within that of the set. */
+  /** Add the voxels of a box within the box of the set. */
   void Add(const VoxelBox& part);
-  /** Add some of four voxels: bit n for the voxel i + n; i is as for FourAt(). */
+  /** Add up to four voxels, bit n for voxel i + n; i as in FourAt(). */
   void AddFour(int i, int j, int k, unsigned bits)
   {
     const int x = i - this->Voxels.First[0];
     this->RowAt(j, k)[x / WordSize] |= bits << x % WordSize;
   }
 
-  /** Operations on two sets of the same box. */
+  // Set operations; both sets must have the same box.
   VoxelBits& operator&=(const VoxelBits& other)
   {
     return this->Combine(other, [](Word a, Word b) { return a & b; });
@@ -72,20 +72,20 @@ public:
   friend VoxelBits operator^(VoxelBits a, const VoxelBits& b) { return a ^= b; }
   friend VoxelBits operator-(VoxelBits a, const VoxelBits& b) { return a -= b; }
 
-  /** Return the voxels whose neighbor is in the set: the next one along an axis, or that before. */
+  /** Return the voxels whose next (or else previous) neighbour along an axis is in the set. */
   VoxelBits Neighbored(int axis, bool isNext) const;
-  /** Return the set with all voxels up to a number of voxels away along an axis. */
+  /** Return the set dilated by a number of voxels along an axis. */
   VoxelBits Grown(int axis, int voxels) const;
   VoxelBits Grown(const std::array<int, 3>& voxels) const
   {
     return this->Grown(0, voxels[0]).Grown(1, voxels[1]).Grown(2, voxels[2]);
   }
-  /** Return whole groups of four voxels along x that have voxels of the set. */
+  /** Return the set extended to whole groups of four voxels along x. */
   VoxelBits InFours() const;
 
   /**
-   * Call visit(i, j, k, count) for each run of voxels along x: its first voxel and their number.
-   * The runs of a layer along z are visited on one thread, in their order.
+   * Call visit(i, j, k, count) for each run of voxels along x, with its first voxel and length. The
+   * runs of one slice are visited in order, on one thread.
    */
   template <typename Visitor>
   void For(Executor& executor, Visitor&& visit) const
@@ -97,7 +97,6 @@ public:
 
   int NumberOfLayers() const { return this->Voxels.Length(2); }
 
-  /** Visit the runs of one layer. */
   template <typename Visitor>
   void ForLayer(int layer, Visitor&& visit) const
   {
@@ -119,8 +118,8 @@ private:
   template <typename Operation>
   VoxelBits& Combine(const VoxelBits& other, Operation&& combine)
   {
-    std::transform(this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(),
-      combine);
+    std::transform(
+      this->Bits.begin(), this->Bits.end(), other.Bits.begin(), this->Bits.begin(), combine);
     return *this;
   }
   Word* RowAt(int j, int k)
@@ -131,21 +130,21 @@ private:
         static_cast<std::size_t>(this->Voxels.Length(1)) * (k - this->Voxels.First[2]));
   }
   const Word* RowAt(int j, int k) const { return const_cast<VoxelBits*>(this)->RowAt(j, k); }
-  /** Return the first bit, from x on, that is set in row ^ inversion; `count` if there is none. */
+  /** Return the first bit at or after x that is set in row ^ inversion; `count` if none is. */
   static int FindBit(const Word* row, int x, int count, Word inversion)
   {
     while (x < count)
     {
-      const Word rest = (row[x / WordSize] ^ inversion) >> x % WordSize;
-      if (rest != 0)
+      const Word remaining = (row[x / WordSize] ^ inversion) >> x % WordSize;
+      if (remaining != 0)
       {
-        return std::min(count, x + LowestBit(rest));
+        return std::min(count, x + LowestBit(remaining));
       }
       x = (x / WordSize + 1) * WordSize;
     }
     return count;
   }
-  /** Add the voxels whose neighbor, `by` voxels further along an axis, is in another set. */
+  /** Add the voxels whose neighbour at distance `by` along an axis is in another set. */
   void AddShifted(const VoxelBits& others, int axis, int by);
 
   VoxelBox Voxels;

@@ -13,7 +13,7 @@ bool CycleCut::IsLegal(const SurfaceMesh& mesh) const
     a.Next(c) != this->B;
 }
 
-std::array<int, 3> CycleCut::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+std::array<int, 3> CycleCut::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   const std::array<int, 3> corner = { this->A, this->B, this->C };
   std::array<int, 3> copy;
@@ -45,7 +45,7 @@ std::array<int, 3> CycleCut::Apply(SurfaceMesh& mesh, VertexRoom* room) const
   for (int k = 0; k < 3; ++k)
   {
     const Vector position = mesh.Position[corner[k]];
-    copy[k] = mesh.AddVertex(position, room);
+    copy[k] = mesh.AddVertex(position, slots);
   }
   for (int k = 0; k < 3; ++k)
   {

@@ -10,11 +10,10 @@
 namespace volumic
 {
 /**
- * The cut (annular transformation): the mesh is cut along a 3-cycle that bounds no face and both
- * sides are closed with a triangle. chi + 2: a component splits, or loses a handle.
- *
- * The old vertices keep the faces to the left of A -> B -> C -> A, new ones take those to the
- * right. Both lie at the same place until the caller moves them apart.
+ * Cut along a 3-cycle that bounds no face (annular transformation). Both sides are closed with a
+ * triangle. chi increases by 2: a component splits, or loses a handle. The old vertices keep the
+ * faces to the left of A -> B -> C -> A, their copies get those to the right. Originals and copies
+ * coincide until the caller moves them apart.
  */
 struct CycleCut
 {
@@ -22,10 +21,10 @@ struct CycleCut
   int B = -1;
   int C = -1;
 
-  /** Whether the three are pairwise neighbours and neither of the two triangles is a face. */
+  /** Return whether the vertices are pairwise neighbours and neither triangle is a face. */
   bool IsLegal(const SurfaceMesh& mesh) const;
-  /** @return the copies of A, B and C; the caps are (A, C, B) and (A', B', C'). */
-  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  /** Return the copies of A, B and C. The caps are (A, C, B) and (A', B', C'). */
+  std::array<int, 3> Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

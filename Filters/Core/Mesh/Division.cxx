@@ -13,7 +13,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
 constexpr std::size_t SpanSize = 8192;
 }
 
@@ -46,7 +45,7 @@ void KeptEdges::KeepAll()
 
 std::vector<int> KeptEdges::FindOverfull() const
 {
-  // Each run of kept edges adds a neighbour; with all of them kept there are as many as before.
+  // Each run of kept edges adds a neighbour, unless all edges are kept.
   std::vector<int> found;
   for (int v = 0; v < this->Mesh.Size(); ++v)
   {
@@ -77,7 +76,7 @@ int KeptEdges::CountFrom(int v) const
 
 namespace
 {
-/** The sums of countOf(v) of all vertices before each, and of all. */
+/** Compute the sums of countOf(v) over all vertices before each one. Return the total. */
 template <typename CountOf>
 int AddUp(LargeVector<int>& first, std::size_t n, Executor& executor, const CountOf& countOf)
 {
@@ -117,7 +116,7 @@ DivisionNumbers NumberForDivision(
     [&mesh](std::size_t v) { return static_cast<int>(mesh.CountFaces(v, v + 1)); });
   if (kept)
   {
-    numbers.Middles = AddUp(numbers.FirstMiddle, n, executor,
+    numbers.Midpoints = AddUp(numbers.FirstMidpoint, n, executor,
       [kept](std::size_t v) { return kept->CountFrom(static_cast<int>(v)); });
   }
   return numbers;
@@ -135,40 +134,42 @@ void Append(Ring& ring, int vertex)
   }
 }
 
-/** A division at work. */
+/** State of a division. */
 class SqrtThreeDivision
 {
 public:
   SqrtThreeDivision(const SurfaceMesh& mesh, const DivisionNumbers& numbers, const KeptEdges* kept)
     : Mesh(mesh), Numbers(numbers), Kept(kept)
   {
-    const auto n = static_cast<std::size_t>(this->FirstMiddle() + numbers.Middles);
-    this->Divided.Remake(n);
+    const auto n = static_cast<std::size_t>(this->FirstMidpoint() + numbers.Midpoints);
+    this->Divided.Allocate(n);
   }
 
-  /** Makes an old vertex, and the new ones that come of what it is the smallest of; on any thread.
+  /**
+   * Make an old vertex, and the new ones of the faces and edges whose smallest vertex it is.
+   * Thread-safe for different vertices.
    */
   void DivideAt(int v);
   SurfaceMesh Take() { return std::move(this->Divided); }
 
 private:
-  int FirstCentre() const { return this->Mesh.Size(); }
-  int FirstMiddle() const { return this->Mesh.Size() + this->Numbers.Faces; }
-  /** The new vertex of the face between a neighbour of `a` and the next one. */
-  int CentreOf(int a, int b, int c) const;
-  /** The same of the face on the left of an edge. */
-  int CentreLeftOf(int a, int b) const
+  int FirstCentroid() const { return this->Mesh.Size(); }
+  int FirstMidpoint() const { return this->Mesh.Size() + this->Numbers.Faces; }
+  /** Return the centroid vertex of the face (a, b, c). */
+  int CentroidOf(int a, int b, int c) const;
+  /** Return the centroid vertex of the face to the left of an edge. */
+  int CentroidLeftOf(int a, int b) const
   {
-    return this->CentreOf(a, b, this->Mesh.Rings[a].After(b));
+    return this->CentroidOf(a, b, this->Mesh.Rings[a].After(b));
   }
-  /** The new vertex of the edge from v to its neighbour i; None: it is flipped. */
-  int MiddleAt(int v, int i) const;
-  int MiddleOf(int u, int v) const
+  /** Return the midpoint vertex of the edge from v to its neighbour i, or None if it is flipped. */
+  int MidpointAt(int v, int i) const;
+  int MidpointOf(int u, int v) const
   {
-    return this->Kept ? this->MiddleAt(u, this->Mesh.Rings[u].Find(v)) : None;
+    return this->Kept ? this->MidpointAt(u, this->Mesh.Rings[u].Find(v)) : None;
   }
-  void MakeCentre(int centre, const std::array<int, 3>& face);
-  void MakeMiddle(int middle, int u, int v);
+  void MakeCentroid(int centroid, const std::array<int, 3>& face);
+  void MakeMidpoint(int midpoint, int u, int v);
   Ring RingOfOld(int v) const;
 
   const SurfaceMesh& Mesh;
@@ -182,26 +183,26 @@ void SqrtThreeDivision::DivideAt(int v)
   const auto i = static_cast<std::size_t>(v);
   this->Divided.Position[i] = this->Mesh.Position[i];
   this->Divided.Rings[i] = this->RingOfOld(v);
-  int centre = this->FirstCentre() + this->Numbers.FirstFace[i];
+  int centroid = this->FirstCentroid() + this->Numbers.FirstFace[i];
   this->Mesh.VisitFaces(i, i + 1,
     [&](int a, int b, int c) {
-      this->MakeCentre(centre++, { a, b, c });
+      this->MakeCentroid(centroid++, { a, b, c });
     });
   if (this->Kept)
   {
-    int middle = this->FirstMiddle() + this->Numbers.FirstMiddle[i];
+    int midpoint = this->FirstMidpoint() + this->Numbers.FirstMidpoint[i];
     const Ring& ring = this->Mesh.Rings[i];
     for (int k = 0; k < ring.Count; ++k)
     {
       if (v < ring.Item[k] && this->Kept->Has(v, k))
       {
-        this->MakeMiddle(middle++, v, ring.Item[k]);
+        this->MakeMidpoint(midpoint++, v, ring.Item[k]);
       }
     }
   }
 }
 
-int SqrtThreeDivision::CentreOf(int a, int b, int c) const
+int SqrtThreeDivision::CentroidOf(int a, int b, int c) const
 {
   const int smallest = std::min({ a, b, c });
   const int next = smallest == a ? b : smallest == b ? c : a;
@@ -211,10 +212,10 @@ int SqrtThreeDivision::CentreOf(int a, int b, int c) const
   {
     before += smallest < ring.Item[i] && smallest < ring.Next(i);
   }
-  return this->FirstCentre() + this->Numbers.FirstFace[smallest] + before;
+  return this->FirstCentroid() + this->Numbers.FirstFace[smallest] + before;
 }
 
-int SqrtThreeDivision::MiddleAt(int v, int i) const
+int SqrtThreeDivision::MidpointAt(int v, int i) const
 {
   if (!this->Kept || !this->Kept->Has(v, i))
   {
@@ -229,43 +230,43 @@ int SqrtThreeDivision::MiddleAt(int v, int i) const
   {
     before += smaller < ring.Item[k] && this->Kept->Has(smaller, k);
   }
-  return this->FirstMiddle() + this->Numbers.FirstMiddle[smaller] + before;
+  return this->FirstMidpoint() + this->Numbers.FirstMidpoint[smaller] + before;
 }
 
-void SqrtThreeDivision::MakeCentre(int centre, const std::array<int, 3>& face)
+void SqrtThreeDivision::MakeCentroid(int centroid, const std::array<int, 3>& face)
 {
   const LargeVector<Vector>& position = this->Mesh.Position;
-  this->Divided.Position[centre] =
+  this->Divided.Position[centroid] =
     (position[face[0]] + position[face[1]] + position[face[2]]) * (1.f / 3.f);
-  // Corner, then what lies across the edge to the next corner.
-  Ring& ring = this->Divided.Rings[centre];
+  // A corner, then the vertex across the edge to the next corner.
+  Ring& ring = this->Divided.Rings[centroid];
   for (int k = 0; k < 3; ++k)
   {
     const int a = face[k];
     const int b = face[(k + 1) % 3];
     const int c = face[(k + 2) % 3];
-    const int middle = this->MiddleOf(a, b);
-    const bool isCutOff = middle != None && this->MiddleOf(a, c) != None;
+    const int midpoint = this->MidpointOf(a, b);
+    const bool isCutOff = midpoint != None && this->MidpointOf(a, c) != None;
     Append(ring, isCutOff ? None : a);
-    Append(ring, middle != None ? middle : this->CentreLeftOf(b, a));
+    Append(ring, midpoint != None ? midpoint : this->CentroidLeftOf(b, a));
   }
 }
 
-void SqrtThreeDivision::MakeMiddle(int middle, int u, int v)
+void SqrtThreeDivision::MakeMidpoint(int midpoint, int u, int v)
 {
   const LargeVector<Vector>& position = this->Mesh.Position;
-  this->Divided.Position[middle] = (position[u] + position[v]) * 0.5f;
+  this->Divided.Position[midpoint] = (position[u] + position[v]) * 0.5f;
   const int left = this->Mesh.Rings[u].After(v);
   const int right = this->Mesh.Rings[u].Before(v);
-  Ring& ring = this->Divided.Rings[middle];
+  Ring& ring = this->Divided.Rings[midpoint];
   Append(ring, u);
-  Append(ring, this->MiddleOf(u, right));
-  Append(ring, this->CentreLeftOf(v, u));
-  Append(ring, this->MiddleOf(v, right));
+  Append(ring, this->MidpointOf(u, right));
+  Append(ring, this->CentroidLeftOf(v, u));
+  Append(ring, this->MidpointOf(v, right));
   Append(ring, v);
-  Append(ring, this->MiddleOf(v, left));
-  Append(ring, this->CentreLeftOf(u, v));
-  Append(ring, this->MiddleOf(u, left));
+  Append(ring, this->MidpointOf(v, left));
+  Append(ring, this->CentroidLeftOf(u, v));
+  Append(ring, this->MidpointOf(u, left));
 }
 
 Ring SqrtThreeDivision::RingOfOld(int v) const
@@ -274,11 +275,11 @@ Ring SqrtThreeDivision::RingOfOld(int v) const
   const Ring& old = this->Mesh.Rings[v];
   for (int i = 0; i < old.Count; ++i)
   {
-    const int middle = this->MiddleAt(v, i);
+    const int midpoint = this->MidpointAt(v, i);
     const bool isCutOff =
-      middle != None && this->MiddleAt(v, i + 1 < old.Count ? i + 1 : 0) != None;
-    Append(ring, middle);
-    Append(ring, isCutOff ? None : this->CentreOf(v, old.Item[i], old.Next(i)));
+      midpoint != None && this->MidpointAt(v, i + 1 < old.Count ? i + 1 : 0) != None;
+    Append(ring, midpoint);
+    Append(ring, isCutOff ? None : this->CentroidOf(v, old.Item[i], old.Next(i)));
   }
   return ring;
 }

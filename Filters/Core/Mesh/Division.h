@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/** Edges of a mesh that a division is to leave where they are. The mesh must stay as it is. */
+/** Edges that a division does not flip. The mesh must not change during its lifetime. */
 class KeptEdges
 {
 public:
@@ -24,63 +24,62 @@ public:
   void KeepAllAt(int v);
   void KeepAll();
   /**
-   * Vertices whose rings would overflow by the division. All edges at these are to be kept, then at
-   * those that overflow then, and so on.
+   * Return the vertices whose rings would exceed Ring::Capacity in the division. The caller keeps
+   * all edges at these vertices and repeats until none is returned.
    */
   std::vector<int> FindOverfull() const;
 
-  /** Of the edge from v to its neighbour i. */
+  /** Return whether the edge from v to its neighbour i is kept. */
   bool Has(int v, int i) const { return (this->Flags[v] >> i & 1u) != 0; }
   bool HasAfter(int v, int i) const
   {
     return this->Has(v, i + 1 < this->Mesh.Rings[v].Count ? i + 1 : 0);
   }
-  /** How many of those of v whose other end has a greater index. */
+  /** Return the number of kept edges of v whose other end has a greater index. */
   int CountFrom(int v) const;
 
 private:
   void KeepAt(int v, int neighbour);
 
-  using RingFlags = std::uint16_t; ///< A bit for each neighbour.
+  using RingFlags = std::uint16_t; ///< One bit per neighbour.
   static_assert(Ring::Capacity <= 16, "each has a bit");
   const SurfaceMesh& Mesh;
-  LargeVector<RingFlags> Flags; ///< Both ends of an edge have one.
+  LargeVector<RingFlags> Flags; ///< Set at both ends of an edge.
 };
 
-/** What new vertices of a division come of is numbered in the order of the smallest old one. */
+/** Numbers of the new vertices, in the order of the smallest old vertex of their face or edge. */
 struct DivisionNumbers
 {
-  /** By vertex: how many faces come before those that it is the smallest of. */
+  /** By vertex: faces before those whose smallest vertex it is. */
   LargeVector<int> FirstFace;
-  int Faces = 0; ///< All of them.
-  /** By vertex: how many kept edges before those that it is the smaller end of. Empty: none. */
-  LargeVector<int> FirstMiddle;
-  int Middles = 0;
+  int Faces = 0; ///< Total number.
+  /** By vertex: kept edges before those whose smaller end it is. Empty: none is kept. */
+  LargeVector<int> FirstMidpoint;
+  int Midpoints = 0;
 };
 
 DivisionNumbers NumberForDivision(
   const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
 /**
- * Global division with factor sqrt 3 (the paper's section 5.1; L. Kobbelt has published the same
- * refinement as "sqrt(3)-subdivision", SIGGRAPH 2000, with a rule that smooths the old vertices,
- * which here stay where they are): a new vertex at the centre of every face, joined to its
- * corners; then every edge between two old vertices is flipped. Vertices become three times as
- * many, edges sqrt 3 times shorter. Old vertices keep index and valence, new ones have 6; chi
- * stays.
+ * Divide all triangles with factor sqrt 3 (the paper's section 5.1). A new vertex at the centroid
+ * of each face is joined to its corners, then every edge between two old vertices is flipped. The
+ * number of vertices triples, edges get shorter by sqrt 3. Old vertices keep index, position and
+ * valence, new ones have valence 6, chi is unchanged. See also L. Kobbelt, "sqrt(3)-subdivision",
+ * SIGGRAPH 2000, which also smooths the old vertices.
  *
- * The flips cut convex edges off and fill concave ones, which may make the surface intersect
- * itself. An edge of `kept` is not flipped but gets a vertex in its middle; a corner between two of
- * these is cut off along the face that it is a part of. So the surface stays where it was along
- * them, and is the old one if all are kept.
+ * The flips cut off convex edges and fill concave ones, which can make the surface intersect
+ * itself. Therefore an edge of `kept` is not flipped but gets a vertex at its midpoint, and a
+ * corner between two such edges is cut off within its face. The surface is unchanged along kept
+ * edges.
  *
- * The centre of face i is the vertex with i plus the number of old ones. The middles of edges come
- * last. `mesh` must have no empty places, `kept` be of it.
+ * The centroid of face i has the index i plus the number of old vertices. The midpoints come last.
+ * `mesh` must have no free slots, and `kept` must refer to it.
  */
 [[nodiscard]] SurfaceMesh Divide(const SurfaceMesh& mesh, const DivisionNumbers& numbers,
   const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 
-/** The same, which numbers it. */
+/** Number the new vertices, then divide. */
 [[nodiscard]] SurfaceMesh Divide(
   const SurfaceMesh& mesh, const KeptEdges* kept = nullptr, Executor& executor = OnThisThread());
 }

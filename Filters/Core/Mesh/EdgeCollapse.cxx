@@ -39,14 +39,14 @@ int EdgeCollapse::ThirdCommonNeighbour(const SurfaceMesh& mesh) const
   return best;
 }
 
-void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   const Ring old = mesh.Rings[this->Kept];
   const Ring& other = mesh.Rings[this->Removed];
   const int at = old.Find(this->Removed);
   const int a = old.Next(at);
   const int b = old.Previous(at);
-  // The other ring reads Kept, b, c1 .. ck, a: c1 .. ck take the place of Removed.
+  // The other ring is Kept, b, c1 .. ck, a. Replace Removed by c1 .. ck.
   Ring ring;
   for (int i = 0; i < at; ++i)
   {
@@ -70,6 +70,6 @@ void EdgeCollapse::Apply(SurfaceMesh& mesh, VertexRoom* room) const
   mesh.Rings[a].Remove(this->Removed);
   mesh.Rings[b].Remove(this->Removed);
   mesh.Rings[this->Kept] = ring;
-  mesh.RemoveVertex(this->Removed, room);
+  mesh.RemoveVertex(this->Removed, slots);
 }
 }

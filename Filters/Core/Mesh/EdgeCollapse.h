@@ -7,21 +7,23 @@
 
 namespace volumic
 {
-/** Contracts an edge (Kept, Removed); two faces go. chi stays. */
+/** Collapse of the edge (Kept, Removed). Two faces are removed, chi is unchanged. */
 struct EdgeCollapse
 {
   int Kept = -1;
   int Removed = -1;
 
   /**
-   * Link condition: the ends have exactly the two opposite vertices in common, these have
-   * valence over 3, and the new ring fits.
+   * Return whether the link condition holds: the ends have exactly the two opposite vertices in
+   * common. These must have a valence over 3, and the new ring must fit Ring::Capacity.
    */
   bool IsLegal(const SurfaceMesh& mesh) const;
-  /** A third common neighbour, which makes a 3-cycle that bounds no face; -1 where none is. */
+  /**
+   * Return the nearest third common neighbour of the ends (a 3-cycle that bounds no face), or -1.
+   */
   int ThirdCommonNeighbour(const SurfaceMesh& mesh) const;
-  /** The position of Kept is the caller's to set. */
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  /** Apply the collapse. The caller sets the position of Kept. */
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

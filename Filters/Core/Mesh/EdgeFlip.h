@@ -7,10 +7,7 @@
 
 namespace volumic
 {
-/**
- * Replaces an edge (U, V) by the one that joins the vertices A, B opposite to it: faces (U, V, A)
- * and (V, U, B) become (A, U, B) and (B, V, A). chi stays.
- */
+/** Flip of (U, V): the faces (U, V, A), (V, U, B) become (A, U, B), (B, V, A). chi stays. */
 struct EdgeFlip
 {
   int U = -1;
@@ -18,9 +15,9 @@ struct EdgeFlip
   int A = -1;
   int B = -1;
 
-  /** The flip of an existing edge; no check. */
+  /** Return the flip of an existing edge. It may be illegal. */
   static EdgeFlip Of(const SurfaceMesh& mesh, int u, int v);
-  /** Whether the result is a manifold of valences from 3 to Ring::Capacity. */
+  /** Return whether the result is a manifold with valences from 3 to Ring::Capacity. */
   bool IsLegal(const SurfaceMesh& mesh) const;
   void Apply(SurfaceMesh& mesh) const;
 };

@@ -12,12 +12,12 @@ bool EdgeSplit::IsLegal(const SurfaceMesh& mesh) const
     mesh.Rings[ring.Previous(at)].Count < Ring::Capacity;
 }
 
-int EdgeSplit::Apply(SurfaceMesh& mesh, const Vector& position, VertexRoom* room) const
+int EdgeSplit::Apply(SurfaceMesh& mesh, const Vector& position, VertexSlots* slots) const
 {
   const int at = mesh.Rings[this->U].Find(this->V);
   const int a = mesh.Rings[this->U].Next(at);
   const int b = mesh.Rings[this->U].Previous(at);
-  const int m = mesh.AddVertex(position, room);
+  const int m = mesh.AddVertex(position, slots);
   mesh.Rings[this->U].Item[at] = m;
   mesh.Rings[this->V].Replace(this->U, m);
   mesh.Rings[a].InsertAfter(this->U, m);

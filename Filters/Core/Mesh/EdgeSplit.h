@@ -8,8 +8,8 @@
 namespace volumic
 {
 /**
- * Sets a vertex into an edge (U, V) and joins it to the two opposite vertices. chi stays.
- * At the midpoint the surface as a set of points is unchanged, so nothing needs verification.
+ * Split of the edge (U, V). The new vertex is joined to the two opposite vertices. chi is
+ * unchanged. At the midpoint the surface keeps its shape, so no intersection test is needed.
  */
 struct EdgeSplit
 {
@@ -17,8 +17,8 @@ struct EdgeSplit
   int V = -1;
 
   bool IsLegal(const SurfaceMesh& mesh) const;
-  /** @return the new vertex. */
-  int Apply(SurfaceMesh& mesh, const Vector& position, VertexRoom* room = nullptr) const;
+  /** Return the new vertex. */
+  int Apply(SurfaceMesh& mesh, const Vector& position, VertexSlots* slots = nullptr) const;
 };
 }
 

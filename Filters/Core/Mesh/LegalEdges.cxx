@@ -10,16 +10,16 @@ namespace volumic
 {
 namespace
 {
-/** Cosine of the largest angle by which a collapse turns a face. */
+/** Cosine of the largest angle by which a collapse may turn a face: 45 degrees. */
 constexpr float LeastCosine = 0.7f;
-/** Least area of a face that a collapse makes, in squares of the shortest edge. */
+/** Least area of a face after a collapse, in squares of the shortest edge. */
 constexpr float LeastArea = 0.074f;
-/** Neighbours of the ends of an edge that is collapsed, together. */
+/** Maximum sum of the valences of the ends of a collapsed edge. */
 constexpr int MostNeighbours = 13;
 
 void SplitLong(SurfaceMesh& mesh, float longest)
 {
-  for (int v = 0; v < mesh.Size(); ++v) // New ones, too, as halves may be too long.
+  for (int v = 0; v < mesh.Size(); ++v) // New vertices included, as halves may be too long.
   {
     for (int i = 0; i < mesh.Rings[v].Count; ++i)
     {
@@ -35,8 +35,8 @@ void SplitLong(SurfaceMesh& mesh, float longest)
   }
 }
 
-/** Whether the faces of one end of an edge, but those of both, keep well when it moves. */
-bool KeepFaces(const SurfaceMesh& mesh, int end, int other, const Vector& place, float leastArea,
+/** Return whether the faces of `end` without `other` stay valid if `end` moves. */
+bool KeepFaces(const SurfaceMesh& mesh, int end, int other, const Vector& position, float leastArea,
   float longest)
 {
   const Ring& ring = mesh.Rings[end];
@@ -52,9 +52,9 @@ bool KeepFaces(const SurfaceMesh& mesh, int end, int other, const Vector& place,
     const Vector p = mesh.Position[b];
     const Vector q = mesh.Position[c];
     const Vector before = Cross(p - from, q - from);
-    const Vector after = Cross(p - place, q - place);
+    const Vector after = Cross(p - position, q - position);
     const float size = Length(after);
-    if (SquaredDistance(place, p) > longest * longest || size < 2.f * leastArea ||
+    if (SquaredDistance(position, p) > longest * longest || size < 2.f * leastArea ||
       Dot(before, after) < LeastCosine * Length(before) * size)
     {
       return false;
@@ -93,9 +93,9 @@ IndexedSurface WithLegalEdges(
   mesh.Append(surface, executor);
   SplitLong(mesh, longest);
   const float leastArea = LeastArea * shortest * shortest;
-  for (const float share : { 0.7f, 1.f }) // The shortest first.
+  for (const float factor : { 0.7f, 1.f }) // Shortest edges first.
   {
-    CollapseShort(mesh, share * shortest, leastArea, longest);
+    CollapseShort(mesh, factor * shortest, leastArea, longest);
   }
   return mesh.ToIndexed(executor);
 }

@@ -9,9 +9,9 @@
 namespace volumic
 {
 /**
- * A closed manifold with its edges brought within bounds: longer ones are halved, which leaves the
- * surface where it is; of shorter ones those are collapsed about which faces turn little. That
- * nothing intersects must be asked afterwards. Lengths: that of the points.
+ * Return a closed manifold with edge lengths brought towards [shortest, longest]. Longer edges are
+ * bisected, which keeps the surface. Shorter edges are collapsed where no face turns by more than
+ * 45 degrees. The caller must test the result for self-intersections.
  * @throws std::invalid_argument as SurfaceMesh::Append
  */
 IndexedSurface WithLegalEdges(

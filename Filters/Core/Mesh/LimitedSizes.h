@@ -14,17 +14,16 @@
 namespace volumic
 {
 /**
- * Lowers sizes of vertices until nowhere they grow by more than the gradation, along the surface or
- * across space: each becomes what the vertices within its reach allow.
- *
- * @param grid  has the vertices that count at their positions
- * @param least what no size is below
+ * Return vertex sizes lowered so that they nowhere grow by more than the gradation times the
+ * Euclidean distance.
+ * @param grid contains the vertices at their positions
+ * @param least lower bound of all sizes
  */
 template <typename Sizes, typename Positions>
 Sizes LimitedSizes(const Sizes& sizes, const Positions& positions, const VertexGrid& grid,
   float least, float gradation, Executor& executor)
 {
-  constexpr std::size_t grain = 2048; // Vertices that one thread looks at at a time.
+  constexpr std::size_t grain = 2048;
   Sizes limited = sizes;
   executor.For(sizes.size(), grain,
     [&](std::size_t begin, std::size_t end)

@@ -10,18 +10,18 @@
 namespace volumic
 {
 /**
- * To a space whose axes and diagonals are along none of those of the space given. Shapes are often
- * aligned with the axes; lines along x then lie in faces and run through corners.
+ * Rotation that aligns no axis or diagonal with those of the given space. Otherwise lines along x
+ * would lie in faces and pass through corners of axis-aligned shapes.
  */
 class ObliqueRotation
 {
 public:
   static constexpr int Count = 5;
 
-  /** There are several; the number may be any. */
+  /** Select a rotation: `number` modulo Count. */
   explicit ObliqueRotation(int number)
   {
-    // Not of length 1 yet, and of no pattern.
+    // Irregular quaternions, not normalised.
     static constexpr double quaternions[Count][4] = { { 0.83, 0.31, 0.37, 0.29 },
       { 0.71, -0.43, 0.29, 0.48 }, { 0.57, 0.23, -0.61, 0.49 }, { 0.91, 0.17, -0.22, 0.33 },
       { 0.42, -0.51, 0.64, 0.38 } };

@@ -17,30 +17,28 @@
 
 namespace volumic
 {
-/**
- * Where a line along x crosses a triangle: what encloses a place is found by counting the crossings
- * on one side of it.
- */
+/** Crossing of a line along x with a triangle, to sum up winding numbers. */
 struct RowCrossing
 {
-  /** By how much the winding number grows there: 1 into what is enclosed, -1 out of it, 0: none. */
+  /** Change of the winding number along +x: 1 entering, -1 leaving, 0 without a crossing. */
   int Winding = 0;
   double X = 0.;
 
   /**
-   * Of the line through (y, z). Of the two ends of an edge only one counts, and both its triangles
-   * get the same answer from it, so that a line crosses a closed surface as often inward as
-   * outward, even where it runs through edges and corners.
+   * Compute the crossing with the line through (y, z). Only one of the two ends of an edge counts,
+   * and both its triangles agree on it. A line therefore enters a closed surface as often as it
+   * leaves it, even if it passes through edges and corners.
    */
   static RowCrossing Of(const Point& a, const Point& b, const Point& c, double y, double z)
   {
     RowCrossing crossing;
-    crossing.Winding = Under(a, b, y, z) + Under(b, c, y, z) + Under(c, a, y, z);
+    crossing.Winding = EdgeSign(a, b, y, z) + EdgeSign(b, c, y, z) + EdgeSign(c, a, y, z);
     if (crossing.Winding == 0)
     {
       return crossing;
     }
-    const double weight[3] = { Area(b, c, y, z), Area(c, a, y, z), Area(a, b, y, z) };
+    const double weight[3] = { TwiceArea(b, c, y, z), TwiceArea(c, a, y, z),
+      TwiceArea(a, b, y, z) };
     const double sum = weight[0] + weight[1] + weight[2];
     const double x[3] = { a[0], b[0], c[0] };
     for (int k = 0; k < 3; ++k)
@@ -54,10 +52,10 @@ struct RowCrossing
 
 private:
   /**
-   * Seen along x, with y to the right and z up: 1 where the edge passes over the line to the right,
-   * -1 where it does so to the left, 0 where it is not over it.
+   * Return 1 if the edge passes above the line to the right, -1 if it does so to the left, else 0.
+   * The view is along x, y points right and z up.
    */
-  static int Under(const Point& from, const Point& to, double y, double z)
+  static int EdgeSign(const Point& from, const Point& to, double y, double z)
   {
     const bool right = to[1] > y;
     if ((from[1] > y) == right)
@@ -73,29 +71,29 @@ private:
     return right ? 1 : -1;
   }
 
-  /** Twice the signed area of the triangle of an edge and the line, seen along x. */
-  static double Area(const Point& from, const Point& to, double y, double z)
+  /** Return twice the signed area of the triangle that the edge and the line span, seen along x. */
+  static double TwiceArea(const Point& from, const Point& to, double y, double z)
   {
     return (to[1] - from[1]) * (z - from[2]) - (to[2] - from[2]) * (y - from[1]);
   }
 };
 
-/** Rows along x at regular places of y and z. */
+/** Rows along x on a regular grid in y and z. */
 struct RowGrid
 {
   struct Crossing
   {
-    std::int64_t Row; ///< see RowOf()
+    std::int64_t Row; ///< See RowOf().
     RowCrossing Where;
 
-    /** By row, and along it. */
+    /** Order by row, then along it. */
     bool operator<(const Crossing& other) const
     {
       return this->Row != other.Row ? this->Row < other.Row : this->Where.X < other.Where.X;
     }
   };
 
-  std::array<std::int64_t, 3> First = { 0, 0, 0 }; ///< of the rows along y and z
+  std::array<std::int64_t, 3> First = { 0, 0, 0 }; ///< Range of rows along y and z.
   std::array<std::int64_t, 3> End = { 0, 0, 0 };
   Point Origin = { 0., 0., 0. };
   double Pitch = 1.;
@@ -108,56 +106,56 @@ struct RowGrid
   {
     return (k - this->First[2]) * (this->End[1] - this->First[1]) + j - this->First[1];
   }
-  /** Adds those of a triangle: each row, whatever its shape, is asked for where it is near only. */
+  /** Append the crossings of a triangle. Only rows near it are tested. */
   void AddCrossings(const std::array<Point, 3>& triangle, std::vector<Crossing>& crossings) const;
 };
 
-/** Places by y: what is near a triangle or a vertex is found without a search of all. */
-class SortedPlaces
+/** Points sorted by y, to find those near a triangle or a vertex without a full search. */
+class SortedPoints
 {
 public:
-  explicit SortedPlaces(const std::vector<Point>& places) : Places(places), Order(places.size())
+  explicit SortedPoints(const std::vector<Point>& points) : Points(points), Order(points.size())
   {
     std::iota(this->Order.begin(), this->Order.end(), 0);
     std::sort(this->Order.begin(), this->Order.end(),
-      [&](int a, int b) { return places[a][1] < places[b][1]; });
+      [&](int a, int b) { return points[a][1] < points[b][1]; });
   }
 
-  /** Calls visit(index) for the places with low <= y <= high. */
+  /** Call visit(index) for the points with low <= y <= high. */
   template <typename Visitor>
   void Visit(double low, double high, const Visitor& visit) const
   {
     auto at = std::lower_bound(this->Order.begin(), this->Order.end(), low,
-      [this](int i, double y) { return this->Places[i][1] < y; });
-    for (; at != this->Order.end() && this->Places[*at][1] <= high; ++at)
+      [this](int i, double y) { return this->Points[i][1] < y; });
+    for (; at != this->Order.end() && this->Points[*at][1] <= high; ++at)
     {
       visit(*at);
     }
   }
 
 private:
-  const std::vector<Point>& Places;
+  const std::vector<Point>& Points;
   std::vector<int> Order;
 };
 
 /**
- * For each place the components about it, ascending: those of whose faces a ray from there along x
- * crosses an odd number. O(n + pairs of ray and face that overlap along y); the same for any
- * executor.
- * @param own the component that each place lies on, which does not count; empty: on none
- * @param facesOf facesOf(begin, end, visit) calls visit(a, b, c, component) with the corners of
- *                the faces of some of n items
+ * Return for each point the components that enclose it, in ascending order: a ray from it along x
+ * crosses their faces an odd number of times. O(n + pairs of ray and face that overlap along y).
+ * The result does not depend on the executor.
+ * @param own component to ignore for each point, on which the point lies; empty if there is none
+ * @param facesOf facesOf(begin, end, visit) calls visit(a, b, c, component) with the corners of the
+ *   faces of a range of the n items
  */
 template <typename FacesOf>
-std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
+std::vector<std::vector<int>> EnclosingComponents(const std::vector<Point>& points,
   const std::vector<int>& own, std::size_t n, const FacesOf& facesOf, Executor& executor)
 {
   constexpr std::size_t spanSize = 8192;
-  using Crossing = std::pair<int, int>; // of place and component
+  using Crossing = std::pair<int, int>; // Index of the point, component.
   const auto keepOdd = [](std::vector<Crossing>& crossings)
   {
     std::sort(crossings.begin(), crossings.end());
-    std::size_t count = 0; // Of those that no equal one has met yet.
+    std::size_t count = 0; // Crossings that are not cancelled by an equal one yet.
     for (const Crossing& crossing : crossings)
     {
       const bool hasMet = count > 0 && crossings[count - 1] == crossing;
@@ -169,7 +167,7 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
     }
     crossings.resize(count);
   };
-  const SortedPlaces sorted(places);
+  const SortedPoints sorted(points);
   std::vector<std::vector<Crossing>> spans((n + spanSize - 1) / spanSize);
   ForSpans(executor, n, spanSize,
     [&](std::size_t span, std::size_t begin, std::size_t end)
@@ -183,8 +181,9 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
             {
               if (own.empty() || own[i] != component)
               {
-                const RowCrossing where = RowCrossing::Of(a, b, c, places[i][1], places[i][2]);
-                if (where.Winding != 0 && where.X > places[i][0])
+                const RowCrossing rowCrossing =
+                  RowCrossing::Of(a, b, c, points[i][1], points[i][2]);
+                if (rowCrossing.Winding != 0 && rowCrossing.X > points[i][0])
                 {
                   spans[span].emplace_back(i, component);
                 }
@@ -195,12 +194,12 @@ std::vector<std::vector<int>> ComponentsAbout(const std::vector<Point>& places,
     });
   std::vector<Crossing> crossings = Joined(executor, spans);
   keepOdd(crossings);
-  std::vector<std::vector<int>> about(places.size());
+  std::vector<std::vector<int>> enclosing(points.size());
   for (const Crossing& crossing : crossings)
   {
-    about[crossing.first].push_back(crossing.second);
+    enclosing[crossing.first].push_back(crossing.second);
   }
-  return about;
+  return enclosing;
 }
 }
 

@@ -13,12 +13,12 @@ namespace volumic
 namespace
 {
 /**
- * Triangles nearer than this share of the mean edge, or of the largest coordinate, count as
- * intersecting: far less than the rounding of the points to float.
+ * Triangles count as intersecting if they are nearer than this fraction of the mean edge length, or
+ * of the largest coordinate. It is far less than the rounding of the points to float.
  */
 constexpr double ToleranceOfEdges = 2e-9;
 constexpr double ToleranceOfExtent = 1e-14;
-/** The tree has the points as they are, the tests have them rounded to float. */
+/** Margin for rounding: the tree has exact points, the tests have points rounded to float. */
 constexpr double RoundingOfExtent = 1e-6;
 
 MeshTriangle RoundedTriangle(const IndexedSurface& surface, int i)
@@ -35,7 +35,7 @@ MeshTriangle RoundedTriangle(const IndexedSurface& surface, int i)
   return triangle;
 }
 
-/** What of a tree may intersect a triangle: boxes that overlap its own and that its plane cuts. */
+/** Selects tree nodes that overlap the box of a triangle and are cut by its plane. */
 class CandidateBox
 {
 public:
@@ -53,7 +53,7 @@ public:
     }
   }
 
-  bool Reaches(const TriangleTree::Node& node) const
+  bool Overlaps(const TriangleTree::Node& node) const
   {
     double middle = 0.;
     double half = this->Margin * Length(this->Normal);
@@ -94,7 +94,7 @@ double LargestCoordinate(const IndexedSurface& surface)
 }
 }
 
-int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionWork* work)
+int CountSelfIntersections(const IndexedSurface& surface, int limit, IntersectionCounters* counters)
 {
   const int count = static_cast<int>(surface.Triangles.size());
   double sum = 0.;
@@ -116,20 +116,20 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
     tree.Traverse(
       [&](const TriangleTree::Node& node)
       {
-        if (work)
+        if (counters)
         {
-          ++work->Boxes;
+          ++counters->Boxes;
         }
-        return node.LargestIndex > i && box.Reaches(node);
+        return node.LargestIndex > i && box.Overlaps(node);
       },
       [&](int j)
       {
         if (j > i)
         {
           found += TrianglesIntersect(triangle, RoundedTriangle(surface, j), tolerance);
-          if (work)
+          if (counters)
           {
-            ++work->Pairs;
+            ++counters->Pairs;
           }
         }
         return limit == 0 || found < limit;
@@ -141,21 +141,21 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
 std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
   const TriangleTree& tree, double tolerance)
 {
-  const double margin = tolerance +
-    RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
+  const double margin =
+    tolerance + RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
   std::vector<int> found;
   for (int i = 0; i < static_cast<int>(surface.Triangles.size()); ++i)
   {
     const MeshTriangle triangle = RoundedTriangle(surface, i);
     const CandidateBox box(triangle, margin);
     bool isFound = false;
-    tree.Traverse([&](const TriangleTree::Node& node) { return box.Reaches(node); },
+    tree.Traverse([&](const TriangleTree::Node& node) { return box.Overlaps(node); },
       [&](int j)
       {
         MeshTriangle candidate = RoundedTriangle(other, j);
         for (int& vertex : candidate.Vertex)
         {
-          vertex = -1 - vertex; // none of this surface's
+          vertex = -1 - vertex; // Differs from all vertices of `surface`.
         }
         isFound = TrianglesIntersect(triangle, candidate, tolerance);
         return !isFound;

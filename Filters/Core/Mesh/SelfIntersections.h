@@ -11,25 +11,26 @@ namespace volumic
 {
 class TriangleTree;
 
-/** What a search for intersections has looked at. */
-struct IntersectionWork
+/** Counters of an intersection search, for tests of its cost. */
+struct IntersectionCounters
 {
-  long long Boxes = 0; ///< Of the tree.
-  long long Pairs = 0; ///< Of triangles.
+  long long Boxes = 0; ///< Tested nodes of the tree.
+  long long Pairs = 0; ///< Tested pairs of triangles.
 };
 
 /**
- * Number of intersecting pairs of triangles, neighbours included, by conservative tests
- * (TrianglesIntersect) of the points rounded to float. Triangles of all sizes may be mixed: the time is that of n log n boxes, and of
- * the pairs whose boxes overlap. Stops counting at `limit` (0: never).
+ * Return the number of intersecting pairs of triangles, neighbours included. Conservative tests
+ * (TrianglesIntersect) are applied to the points rounded to float. Triangles of all sizes may be
+ * mixed: n log n boxes are tested, and the pairs whose boxes overlap. Counting stops at `limit` (0:
+ * no limit).
  */
 int CountSelfIntersections(
-  const IndexedSurface& surface, int limit = 0, IntersectionWork* work = nullptr);
+  const IndexedSurface& surface, int limit = 0, IntersectionCounters* counters = nullptr);
 
 /**
- * The triangles, from first to last, that another surface intersects, or comes nearer to than
- * `tolerance`; points are rounded to float.
- * @param tree of the other surface
+ * Return the indices, in ascending order, of the triangles that intersect another surface or come
+ * nearer to it than `tolerance`. Points are rounded to float.
+ * @param tree tree of the other surface
  */
 std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
   const TriangleTree& tree, double tolerance);

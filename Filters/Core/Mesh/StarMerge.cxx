@@ -9,9 +9,9 @@ namespace volumic
 {
 bool StarMerge::PlanFrom(int offset, float best, float& cost)
 {
-  // State (i, k): the bridge edge from place i of the first rim to place offset + k of the second.
-  const int n = this->FirstRim.Count;
-  const int m = this->SecondRim.Count;
+  // State (i, k): bridge edge from vertex i of the first link to vertex offset + k of the second.
+  const int n = this->FirstLink.Count;
+  const int m = this->SecondLink.Count;
   float sum[Ring::Capacity + 1][Ring::Capacity + 1];
   bool alongFirst[Ring::Capacity + 1][Ring::Capacity + 1];
   for (int i = 0; i <= n; ++i)
@@ -37,7 +37,7 @@ bool StarMerge::PlanFrom(int offset, float best, float& cost)
     this->Candidate.push_back({ i % n, (offset + k) % m });
   }
   std::reverse(this->Candidate.begin(), this->Candidate.end());
-  // A whole turn about one rim vertex: it has more edges than the other rim has vertices.
+  // A whole turn about one link vertex has more bridge edges than the other link has vertices.
   int perFirst[Ring::Capacity] = {};
   int perSecond[Ring::Capacity] = {};
   for (const BridgeEdge& edge : this->Candidate)
@@ -59,16 +59,16 @@ bool StarMerge::Fits(const SurfaceMesh& mesh) const
     ++perFirst[edge.First];
     ++perSecond[edge.Second];
   }
-  for (int i = 0; i < this->FirstRim.Count; ++i)
+  for (int i = 0; i < this->FirstLink.Count; ++i)
   {
-    if (mesh.Rings[this->FirstRim.Item[i]].Count - 1 + perFirst[i] > Ring::Capacity)
+    if (mesh.Rings[this->FirstLink.Item[i]].Count - 1 + perFirst[i] > Ring::Capacity)
     {
       return false;
     }
   }
-  for (int k = 0; k < this->SecondRim.Count; ++k)
+  for (int k = 0; k < this->SecondLink.Count; ++k)
   {
-    if (mesh.Rings[this->SecondRim.Item[k]].Count - 1 + perSecond[k] > Ring::Capacity)
+    if (mesh.Rings[this->SecondLink.Item[k]].Count - 1 + perSecond[k] > Ring::Capacity)
     {
       return false;
     }
@@ -76,21 +76,21 @@ bool StarMerge::Fits(const SurfaceMesh& mesh) const
   return true;
 }
 
-bool StarMerge::MeasureRims(const SurfaceMesh& mesh)
+bool StarMerge::MeasureLinks(const SurfaceMesh& mesh)
 {
-  this->FirstRim = mesh.Rings[this->U];
-  this->SecondRim = mesh.Rings[this->V];
-  std::reverse(this->SecondRim.Item, this->SecondRim.Item + this->SecondRim.Count);
-  for (int i = 0; i < this->FirstRim.Count; ++i)
+  this->FirstLink = mesh.Rings[this->U];
+  this->SecondLink = mesh.Rings[this->V];
+  std::reverse(this->SecondLink.Item, this->SecondLink.Item + this->SecondLink.Count);
+  for (int i = 0; i < this->FirstLink.Count; ++i)
   {
-    const int r = this->FirstRim.Item[i];
+    const int r = this->FirstLink.Item[i];
     if (r == this->V)
     {
       return false;
     }
-    for (int k = 0; k < this->SecondRim.Count; ++k)
+    for (int k = 0; k < this->SecondLink.Count; ++k)
     {
-      const int s = this->SecondRim.Item[k];
+      const int s = this->SecondLink.Item[k];
       if (r == s || mesh.AreNeighbours(r, s))
       {
         return false;
@@ -103,8 +103,8 @@ bool StarMerge::MeasureRims(const SurfaceMesh& mesh)
 
 float StarMerge::PlanInStep(int offset)
 {
-  const int n = this->FirstRim.Count;
-  const int m = this->SecondRim.Count;
+  const int n = this->FirstLink.Count;
+  const int m = this->SecondLink.Count;
   this->Candidate.clear();
   float cost = 0;
   int i = 0;
@@ -122,7 +122,7 @@ void StarMerge::ChooseBridgeEdges()
 {
   float best = std::numeric_limits<float>::max();
   this->BridgeEdges.clear();
-  for (int offset = 0; offset < this->SecondRim.Count; ++offset)
+  for (int offset = 0; offset < this->SecondLink.Count; ++offset)
   {
     float cost = 0;
     if (this->PlanFrom(offset, best, cost))
@@ -135,9 +135,9 @@ void StarMerge::ChooseBridgeEdges()
   {
     return;
   }
-  // Far or skew stars: nothing is better than turning about both rims in step.
+  // Distant or skew stars: fall back to even strips.
   float least = std::numeric_limits<float>::max();
-  for (int offset = 0; offset < this->SecondRim.Count; ++offset)
+  for (int offset = 0; offset < this->SecondLink.Count; ++offset)
   {
     const float cost = this->PlanInStep(offset);
     if (cost < least)
@@ -156,23 +156,23 @@ void StarMerge::MakeTriangles()
   {
     const BridgeEdge& here = this->BridgeEdges[i];
     const BridgeEdge& next = this->BridgeEdges[(i + 1) % this->BridgeEdges.size()];
-    const int r = this->FirstRim.Item[here.First];
-    const int s = this->SecondRim.Item[here.Second];
+    const int r = this->FirstLink.Item[here.First];
+    const int s = this->SecondLink.Item[here.Second];
     this->SquaredLongest = std::max(this->SquaredLongest, this->Squared[here.First][here.Second]);
     if (here.Second == next.Second)
     {
-      this->Triangles.push_back({ r, this->FirstRim.Item[next.First], s });
+      this->Triangles.push_back({ r, this->FirstLink.Item[next.First], s });
     }
     else
     {
-      this->Triangles.push_back({ this->SecondRim.Item[next.Second], s, r });
+      this->Triangles.push_back({ this->SecondLink.Item[next.Second], s, r });
     }
   }
 }
 
 bool StarMerge::Plan(const SurfaceMesh& mesh)
 {
-  if (!this->MeasureRims(mesh))
+  if (!this->MeasureLinks(mesh))
   {
     return false;
   }
@@ -190,18 +190,18 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   const auto own = [first](const BridgeEdge& edge) { return first ? edge.First : edge.Second; };
   const std::size_t count = this->BridgeEdges.size();
   const int centre = first ? this->U : this->V;
-  const Ring& rim = first ? this->FirstRim : this->SecondRim;
-  const Ring& facing = first ? this->SecondRim : this->FirstRim;
+  const Ring& link = first ? this->FirstLink : this->SecondLink;
+  const Ring& facing = first ? this->SecondLink : this->FirstLink;
   for (std::size_t begin = 0; begin < count; ++begin)
   {
-    const int place = own(this->BridgeEdges[begin]);
-    if (place == own(this->BridgeEdges[(begin + count - 1) % count]))
+    const int index = own(this->BridgeEdges[begin]);
+    if (index == own(this->BridgeEdges[(begin + count - 1) % count]))
     {
-      continue; // Not the first bridge edge of this rim vertex.
+      continue; // Not the first bridge edge of this link vertex.
     }
     int run[Ring::Capacity];
     int length = 0;
-    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == place; ++i)
+    for (std::size_t i = begin; own(this->BridgeEdges[i % count]) == index; ++i)
     {
       const BridgeEdge& edge = this->BridgeEdges[i % count];
       run[length++] = facing.Item[first ? edge.Second : edge.First];
@@ -210,8 +210,8 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
     {
       std::reverse(run, run + length);
     }
-    // The run takes the place of the centre.
-    Ring& ring = mesh.Rings[rim.Item[place]];
+    // Replace the centre by the run.
+    Ring& ring = mesh.Rings[link.Item[index]];
     const int at = ring.Find(centre);
     const Ring old = ring;
     ring.Count = 0;
@@ -230,11 +230,11 @@ void StarMerge::InsertBridgeEdges(SurfaceMesh& mesh, bool first) const
   }
 }
 
-void StarMerge::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void StarMerge::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   this->InsertBridgeEdges(mesh, true);
   this->InsertBridgeEdges(mesh, false);
-  mesh.RemoveVertex(this->U, room);
-  mesh.RemoveVertex(this->V, room);
+  mesh.RemoveVertex(this->U, slots);
+  mesh.RemoveVertex(this->V, slots);
 }
 }

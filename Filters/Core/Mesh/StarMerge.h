@@ -11,8 +11,8 @@
 namespace volumic
 {
 /**
- * The merge (axial transformation): the stars of two vertices are removed and their rims joined
- * by a strip of triangles. chi - 2: two components become one, or one gains a handle.
+ * Merge of two vertices (axial transformation). Their stars are removed and the links are joined by
+ * a strip of triangles. chi decreases by 2: two components become one, or one gains a handle.
  */
 class StarMerge
 {
@@ -21,40 +21,39 @@ public:
   int V = -1;
 
   /**
-   * Plans the strip by dynamic programming over the start offsets: least sum of the squared lengths
-   * of the bridge edges, which join the rims.
-   * Paths that stay on one rim vertex for a whole turn are left out, they would double an edge.
-   * @return false where the rims touch or are joined by an edge, or no strip fits the rings.
+   * Plan the strip: minimise the sum of the squared lengths of the bridge edges, which join the
+   * links, by dynamic programming over all start offsets. Paths that stay on one link vertex for a
+   * whole turn are excluded, as they would duplicate an edge.
+   * @return false if the links touch or are joined by an edge, or if no strip fits the rings
    */
   bool Plan(const SurfaceMesh& mesh);
 
-  /** After Plan: the triangles of the strip, and the length of its longest bridge edge, squared. */
+  /** Return the triangles of the strip. Valid after Plan(). */
   const std::vector<std::array<int, 3>>& Strip() const { return this->Triangles; }
   float SquaredLongestBridgeEdge() const { return this->SquaredLongest; }
 
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 
 private:
   struct BridgeEdge
   {
-    int First;  ///< Place on the rim of U, along its ring.
-    int Second; ///< Place on the rim of V, against its ring.
+    int First;  ///< Index in the link of U, in the order of its ring.
+    int Second; ///< Index in the link of V, in reverse order of its ring.
   };
-  /** False where the rims touch or an edge joins them. */
-  bool MeasureRims(const SurfaceMesh& mesh);
+  /** Return false if the links touch or an edge joins them. */
+  bool MeasureLinks(const SurfaceMesh& mesh);
   void ChooseBridgeEdges();
-  /** The best strip that begins at this place of the second rim. @return whether it is under best.
-   */
+  /** Find the best strip from `offset` of the second link. Return whether its cost is < best. */
   bool PlanFrom(int offset, float best, float& cost);
-  /** A strip that goes about both rims at the same pace. @return its cost. */
+  /** Make a strip that advances evenly along both links. Return its cost. */
   float PlanInStep(int offset);
   bool Fits(const SurfaceMesh& mesh) const;
   void MakeTriangles();
   void InsertBridgeEdges(SurfaceMesh& mesh, bool first) const;
 
-  Ring FirstRim;
-  Ring SecondRim;                                ///< Reversed.
-  float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances from rim to rim.
+  Ring FirstLink;
+  Ring SecondLink;                               ///< Reversed.
+  float Squared[Ring::Capacity][Ring::Capacity]; ///< Distances between the links.
   std::vector<BridgeEdge> BridgeEdges;
   std::vector<BridgeEdge> Candidate;
   std::vector<std::array<int, 3>> Triangles;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Mesh/SurfaceCheck.h"
 
-#include "Core/Common/Refuse.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Mesh/ObliqueRotation.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Mesh/TriangleTree.h"
@@ -18,16 +18,16 @@ namespace volumic
 namespace
 {
 template <typename... Parts>
-[[noreturn]] void RefuseSurface(const Parts&... parts)
+[[noreturn]] void ThrowInvalidSurface(const Parts&... parts)
 {
-  Refuse("The initial surface ", parts...);
+  ThrowInvalidArgument("The initial surface ", parts...);
 }
 
 void CheckIndices(const IndexedSurface& surface)
 {
   if (surface.Triangles.empty())
   {
-    RefuseSurface("is empty: it has no triangles. Give a closed triangle mesh.");
+    ThrowInvalidSurface("is empty. Provide a closed triangle mesh.");
   }
   const int n = static_cast<int>(surface.Points.size());
   for (std::size_t i = 0; i < surface.Triangles.size(); ++i)
@@ -37,28 +37,29 @@ void CheckIndices(const IndexedSurface& surface)
     {
       if (corner < 0 || corner >= n)
       {
-        RefuseSurface(
-          "has triangle ", i, " with point ", corner, ", but there are ", n, " points.");
+        ThrowInvalidSurface("has an invalid index: triangle ", i, " has point ", corner,
+          ", but there are ", n, " points. Correct the triangles.");
       }
       for (double x : surface.Points[corner])
       {
         if (!std::isfinite(x))
         {
-          RefuseSurface("has a coordinate that is not finite at point ", corner, ".");
+          ThrowInvalidSurface(
+            "has a coordinate that is not finite at point ", corner, ". Correct the point.");
         }
       }
     }
     if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
     {
-      RefuseSurface("has a degenerate triangle (number ", i,
-        " uses a point twice). Clean it first, for example with vtkCleanPolyData.");
+      ThrowInvalidSurface("has a degenerate triangle: triangle ", i,
+        " uses a point twice. Remove it, for example with vtkCleanPolyData.");
     }
   }
 }
 
 void CheckEdges(const IndexedSurface& surface)
 {
-  std::unordered_map<long long, std::pair<int, int>> edges; // uses in either direction
+  std::unordered_map<long long, std::pair<int, int>> edges; // Uses in either direction.
   edges.reserve(surface.Triangles.size() * 2);
   const long long n = static_cast<long long>(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
@@ -83,27 +84,26 @@ void CheckEdges(const IndexedSurface& surface)
   }
   if (open > 0)
   {
-    RefuseSurface("is open: ", open,
-      " edges have one triangle only. Close its holes, for example with vtkFillHolesFilter, or, "
-      "where triangles have points of their own at the same places, merge these with "
-      "vtkCleanPolyData.");
+    ThrowInvalidSurface("is not closed: ", open,
+      " edges have only one triangle. Fill its holes, for example with vtkFillHolesFilter, or "
+      "merge coincident points with vtkCleanPolyData.");
   }
   if (nonManifold > 0)
   {
-    RefuseSurface(
-      "is not manifold: ", nonManifold, " edges have more than two triangles. Clean it first.");
+    ThrowInvalidSurface("is not manifold: ", nonManifold,
+      " edges have more than two triangles. Remove surplus triangles.");
   }
   if (misoriented > 0)
   {
-    RefuseSurface("is not oriented: ", misoriented,
-      " edges have two triangles that disagree on their orientation. Orient it, for example with "
+    ThrowInvalidSurface("is not consistently oriented: ", misoriented,
+      " edges have two triangles of opposite orientation. Orient it, for example with "
       "vtkPolyDataNormals and ConsistencyOn.");
   }
 }
 
 void CheckVertices(const IndexedSurface& surface)
 {
-  // Edges being in order, a vertex is a manifold one if its triangles form a single fan.
+  // All edges are valid, so a vertex is manifold if its triangles form a single fan.
   std::vector<std::vector<std::pair<int, int>>> opposite(surface.Points.size());
   for (const Triangle& t : surface.Triangles)
   {
@@ -131,14 +131,14 @@ void CheckVertices(const IndexedSurface& surface)
   }
   if (pinched > 0)
   {
-    RefuseSurface("is not manifold: at ", pinched,
-      " points several fans of triangles touch. Give each fan a point of its own.");
+    ThrowInvalidSurface("is not manifold: ", pinched,
+      " points join several triangle fans. Duplicate these points, one for each fan.");
   }
 }
 
 void CheckOrientation(const IndexedSurface& surface)
 {
-  // Cavities are legal, so it is the component with the largest volume that must face outward.
+  // Cavities are legal. Therefore only the component with the largest volume must face outward.
   const SurfaceFeatures features = ComputeFeatures(surface);
   double largest = 0.;
   for (const ComponentFeatures& c : features.Components)
@@ -147,31 +147,31 @@ void CheckOrientation(const IndexedSurface& surface)
   }
   if (largest < 0.)
   {
-    RefuseSurface("is inside out: it encloses a volume of ", largest,
-      ". Reverse it, for example with vtkReverseSense.");
+    ThrowInvalidSurface(
+      "is inside out: its volume is ", largest, ". Reverse it, for example with vtkReverseSense.");
   }
   if (largest == 0.)
   {
-    RefuseSurface("encloses no volume.");
+    ThrowInvalidSurface("encloses no volume. Provide a surface with a positive volume.");
   }
 }
 
-/** A place in a triangle that has nothing in common with the lines of round numbers. */
-Point PlaceIn(const IndexedSurface& surface, const Triangle& t)
+/** Return an interior point of a triangle that is not aligned with simple fractions. */
+Point PointIn(const IndexedSurface& surface, const Triangle& t)
 {
   constexpr double weights[3] = { 0.41421, 0.35425, 0.23154 }; // Their sum is 1.
-  Point place;
+  Point point;
   for (int k = 0; k < 3; ++k)
   {
-    place[k] = weights[0] * surface.Points[t[0]][k] + weights[1] * surface.Points[t[1]][k] +
+    point[k] = weights[0] * surface.Points[t[0]][k] + weights[1] * surface.Points[t[1]][k] +
       weights[2] * surface.Points[t[2]][k];
   }
-  return place;
+  return point;
 }
 
 /**
- * Every component must face outward, or inward if it is a cavity of one that does: only then is
- * the whole the boundary of a volume.
+ * Throw unless every component faces outward, or inward if it is a cavity of one that faces
+ * outward. Only then is the surface the boundary of a volume.
  */
 void CheckNesting(const IndexedSurface& surface)
 {
@@ -193,19 +193,19 @@ void CheckNesting(const IndexedSurface& surface)
     p = rotation.Apply(p);
   }
   const TriangleTree tree(rotated);
-  int wrong = 0;
+  int misoriented = 0;
   for (std::size_t c = 0; c < count; ++c)
   {
-    const int winding = tree.WindingAbout(PlaceIn(rotated, *first[c]),
+    const int winding = tree.WindingNumber(PointIn(rotated, *first[c]),
       [&](int t) { return features.ComponentOfTriangle[t] != static_cast<int>(c); });
     const bool isCavity = features.Components[c].Volume < 0.;
-    wrong += winding != (isCavity ? 1 : 0);
+    misoriented += winding != (isCavity ? 1 : 0);
   }
-  if (wrong > 0)
+  if (misoriented > 0)
   {
-    RefuseSurface("is not the boundary of a volume: ", wrong, " of its ", count,
-      " components face the wrong way. Those inside another one are cavities and must face inward, "
-      "those inside a cavity or outside of all must face outward.");
+    ThrowInvalidSurface("is not the boundary of a volume: ", misoriented, " of its ", count,
+      " components have the wrong orientation. Orient cavities inward, and components inside a "
+      "cavity or outside all others outward.");
   }
 }
 }
@@ -220,8 +220,8 @@ void CheckInitialSurface(const IndexedSurface& surface)
   const int pairs = CountSelfIntersections(surface, limit);
   if (pairs > 0)
   {
-    RefuseSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
-      " pairs of triangles meet. Repair it before it is given.");
+    ThrowInvalidSurface("intersects itself: ", pairs >= limit ? "at least " : "", pairs,
+      " pairs of triangles intersect. Repair it first.");
   }
   CheckNesting(surface);
 }

@@ -9,10 +9,10 @@
 namespace volumic
 {
 /**
- * Refuses a surface that can't be evolved: empty, indices or coordinates out of range, open, not
- * manifold, not oriented, inside out, not the boundary of a volume (components nested the wrong
- * way), self-intersecting. `surface` may be in any space.
- * @throws std::invalid_argument whose message names what is wrong, how often, and the way out.
+ * Check that a surface can be evolved: it must not be empty, and must be closed, manifold,
+ * consistently oriented outward, properly nested and free of self-intersections. Indices and
+ * coordinates must be valid. The surface may be in any space.
+ * @throws std::invalid_argument with a message that names the defect, its number and the remedy
  */
 void CheckInitialSurface(const IndexedSurface& surface);
 }

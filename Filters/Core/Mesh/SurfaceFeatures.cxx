@@ -16,18 +16,18 @@ namespace volumic
 {
 namespace
 {
-/** Components of no more volume than this, in their area to the power of 3/2, count as flat. */
+/** A component is flat if its volume is at most this factor times its area to the power of 3/2. */
 constexpr double FlatVolume = 1e-9;
 
-/** The axes of the entries of a symmetric tensor, in the order in which they are kept. */
+/** Axes of the entries of a symmetric tensor, in storage order. */
 constexpr int TensorAxes[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 0, 2 } };
 
-/** Points or triangles that one thread looks at at a time. */
+/** Points or triangles per task. */
 constexpr std::size_t SpanSize = 8192;
-/** Triangles whose terms are kept until they are added up. */
+/** Triangles whose terms are stored before they are summed. */
 constexpr std::size_t BatchSize = 16 * SpanSize;
 
-/** What a triangle adds: it spans a tetrahedron with a reference point of the component. */
+/** Contribution of a triangle: its tetrahedron with a reference point of the component. */
 struct Terms
 {
   double Area = 0.;
@@ -76,7 +76,6 @@ Terms TermsOf(const Point& reference, const Point& pa, const Point& pb, const Po
   const std::array<double, 3> n = { u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
     u[0] * v[1] - u[1] * v[0] };
   const double area = 0.5 * std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-  // Six times the volume of the tetrahedron: a . (b x c) = a . n.
   const double det = a[0] * n[0] + a[1] * n[1] + a[2] * n[2];
   Terms terms;
   terms.Area = area;
@@ -106,11 +105,11 @@ ComponentFeatures Finish(const Sums& sums)
   result.Volume = sums.Volume;
   result.Genus = (2 - (sums.Vertices - sums.Triangles / 2)) / 2;
   std::array<double, 3> centre{};
-  const bool solid = std::abs(sums.Volume) > FlatVolume * std::pow(sums.Area, 1.5);
+  const bool hasVolume = std::abs(sums.Volume) > FlatVolume * std::pow(sums.Area, 1.5);
   for (int k = 0; k < 3; ++k)
   {
-    centre[k] = solid ? sums.First[k] / sums.Volume
-                      : (sums.Area > 0. ? sums.AreaMoment[k] / sums.Area : 0.);
+    centre[k] = hasVolume ? sums.First[k] / sums.Volume
+                          : (sums.Area > 0. ? sums.AreaMoment[k] / sums.Area : 0.);
     result.Centroid[k] = sums.Reference[k] + centre[k];
   }
   std::array<double, 6> second = sums.Second;
@@ -118,28 +117,28 @@ ComponentFeatures Finish(const Sums& sums)
   {
     const int i = TensorAxes[k][0];
     const int j = TensorAxes[k][1];
-    second[k] -= centre[i] * sums.First[j] + centre[j] * sums.First[i] -
-      sums.Volume * centre[i] * centre[j];
+    second[k] -=
+      centre[i] * sums.First[j] + centre[j] * sums.First[i] - sums.Volume * centre[i] * centre[j];
   }
   result.Inertia = { second[1] + second[2], second[0] + second[2], second[0] + second[1],
     -second[3], -second[4], -second[5] };
   return result;
 }
 
-/** The components of a surface, numbered in the order of their first triangles. */
+/** Components of a surface, numbered in the order of their first triangles. */
 class Components
 {
 public:
   Components(const IndexedSurface& surface, Executor& executor);
 
   LargeVector<int> OfTriangle;
-  std::vector<Sums> Begun; ///< By component, all that comes before its triangles.
+  std::vector<Sums> Initial; ///< Per component, before the sums over its triangles.
 
 private:
   void FindRoots(const IndexedSurface& surface, Executor& executor);
   void Number(const IndexedSurface& surface, Executor& executor);
 
-  LargeVector<int> Root; ///< Of a point's component, the smallest point in it.
+  LargeVector<int> Root; ///< By point: smallest point of its component.
 };
 
 Components::Components(const IndexedSurface& surface, Executor& executor)
@@ -175,7 +174,7 @@ void Components::FindRoots(const IndexedSurface& surface, Executor& executor)
 
 void Components::Number(const IndexedSurface& surface, Executor& executor)
 {
-  // By the place of a root its first triangle, then its number, counted from 1; 0 where it has none.
+  // By root: first its smallest triangle, then its number, both counted from 1, or 0.
   LargeVector<std::atomic<int>> number(this->Root.size());
   ForSpans(executor, surface.Triangles.size(), SpanSize,
     [&](std::size_t, std::size_t begin, std::size_t end)
@@ -201,9 +200,9 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
   for (const int first : firsts)
   {
     const int corner = surface.Triangles[first][0];
-    this->Begun.emplace_back();
-    this->Begun.back().Reference = surface.Points[corner];
-    number[this->Root[corner]] = static_cast<int>(this->Begun.size());
+    this->Initial.emplace_back();
+    this->Initial.back().Reference = surface.Points[corner];
+    number[this->Root[corner]] = static_cast<int>(this->Initial.size());
   }
   MakeZeroed(this->OfTriangle, surface.Triangles.size());
   ForSpans(executor, this->OfTriangle.size(), SpanSize,
@@ -220,13 +219,13 @@ void Components::Number(const IndexedSurface& surface, Executor& executor)
     const int own = number[this->Root[p]].load(std::memory_order_relaxed) - 1;
     if (own >= 0)
     {
-      ++this->Begun[own].Vertices;
+      ++this->Initial[own].Vertices;
     }
   }
 }
 
-/** @param of the component of each triangle */
-void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& executor,
+/** @param components component of each triangle */
+void AddUp(const IndexedSurface& surface, const LargeVector<int>& components, Executor& executor,
   std::vector<Sums>& sums)
 {
   LargeVector<Terms> terms;
@@ -240,13 +239,13 @@ void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& 
         for (std::size_t i = begin; i < end; ++i)
         {
           const Triangle& t = surface.Triangles[first + i];
-          terms[i] = TermsOf(sums[of[first + i]].Reference,
-            surface.Points[t[0]], surface.Points[t[1]], surface.Points[t[2]]);
+          terms[i] = TermsOf(sums[components[first + i]].Reference, surface.Points[t[0]],
+            surface.Points[t[1]], surface.Points[t[2]]);
         }
       });
     for (std::size_t i = 0; i < count; ++i)
     {
-      sums[of[first + i]].Add(terms[i]);
+      sums[components[first + i]].Add(terms[i]);
     }
   }
 }
@@ -255,7 +254,7 @@ void AddUp(const IndexedSurface& surface, const LargeVector<int>& of, Executor& 
 SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor)
 {
   Components components(surface, executor);
-  std::vector<Sums> sums = std::move(components.Begun);
+  std::vector<Sums> sums = std::move(components.Initial);
   AddUp(surface, components.OfTriangle, executor, sums);
   std::vector<int> order(sums.size());
   std::iota(order.begin(), order.end(), 0);

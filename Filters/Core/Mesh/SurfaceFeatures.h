@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/** Features of one closed component. Lengths are those of the points given. */
+/** Features of one closed component, in the unit of the points. */
 struct ComponentFeatures
 {
   int Vertices = 0;
@@ -19,13 +19,13 @@ struct ComponentFeatures
   double Area = 0.;
   double Volume = 0.; ///< Signed: negative for a cavity.
   int Genus = 0;
-  Point Centroid = { 0., 0., 0. };              ///< Of the enclosed volume (of the area if flat).
+  Point Centroid = { 0., 0., 0. }; ///< Of the volume; of the area if flat.
   std::array<double, 6> Inertia = { 0., 0., 0., 0., 0., 0. }; ///< xx yy zz xy yz xz, see below.
 };
 
 struct SurfaceFeatures
 {
-  std::vector<ComponentFeatures> Components; ///< 0 = largest area.
+  std::vector<ComponentFeatures> Components; ///< Sorted by area, largest first.
   LargeVector<int> ComponentOfTriangle;
   double Area = 0.;
   double Volume = 0.;
@@ -34,16 +34,13 @@ struct SurfaceFeatures
 };
 
 /**
- * Components, areas, volumes and moments of a closed oriented manifold mesh.
- *
- * Inertia is the tensor of the enclosed solid of density 1 about its centroid: the diagonal holds
- * the moments of inertia (xx = integral of y^2 + z^2), the rest the products with the sign of the
- * tensor (xy = - integral of x y). For a cavity it carries the sign of the volume.
- * Sums run over triangles in order, so results do not depend on threads, which find out what is
- * added up.
+ * Compute components, areas, volumes and moments of a closed oriented manifold mesh. Inertia is the
+ * tensor of the enclosed volume, with density 1, about its centroid. The first three entries are
+ * the moments of inertia (xx = integral of y^2 + z^2), the others the products with the sign of the
+ * tensor (xy = - integral of x y). For a cavity the tensor has the sign of the volume. The sums are
+ * taken in the order of the triangles, so the result does not depend on the executor.
  */
-SurfaceFeatures ComputeFeatures(
-  const IndexedSurface& surface, Executor& executor = OnThisThread());
+SurfaceFeatures ComputeFeatures(const IndexedSurface& surface, Executor& executor = OnThisThread());
 }
 
 #endif

@@ -10,7 +10,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread sums up at a time. */
 constexpr std::size_t SpanSize = 2048;
 }
 
@@ -38,14 +37,16 @@ Box BoundsOf(const SurfaceMesh& mesh, Executor& executor)
 {
   constexpr float most = std::numeric_limits<float>::max();
   const Box none = { Vector(most, most, most), Vector(-most, -most, -most) };
-  const Box box = JoinVertices(mesh, executor, none,
-    [&mesh](int v, Box& some)
-    { some = mesh.IsAlive(v) ? some.With({ mesh.Position[v], mesh.Position[v] }) : some; },
+  const Box box = JoinVertices(
+    mesh, executor, none,
+    [&mesh](int v, Box& some) {
+      some = mesh.IsAlive(v) ? some.With({ mesh.Position[v], mesh.Position[v] }) : some;
+    },
     [](const Box& a, const Box& b) { return a.With(b); });
   return mesh.NumberOfVertices() > 0 ? box : Box();
 }
 
-double AreaShare(const SurfaceMesh& mesh, int v)
+double VertexArea(const SurfaceMesh& mesh, int v)
 {
   const Ring& ring = mesh.Rings[v];
   const Vector& p = mesh.Position[v];

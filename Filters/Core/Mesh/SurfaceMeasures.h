@@ -10,17 +10,17 @@
 namespace volumic
 {
 /**
- * The signed volume that a closed surface, or some components of one, encloses; negative for what
- * is inside out. It is added up vertex by vertex: of the tetrahedron that a face spans with the
- * origin a third belongs to each corner.
+ * Accumulates the signed volume enclosed by a closed surface, or by some of its components, vertex
+ * by vertex. Each face spans a tetrahedron with the origin, a third of which is assigned to each of
+ * its corners. The volume is negative if the surface is inside out.
  */
 class SignedVolume
 {
 public:
-  /** The origin may be any point; one of the surface costs no digits. */
+  /** Set the origin, which may be any point. A point of the surface reduces rounding. */
   explicit SignedVolume(const Vector& origin = Vector()) : Origin(origin) {}
 
-  /** Adds the share of a vertex; that of one that is not alive is 0. */
+  /** Add the contribution of a vertex, which is 0 if it is not alive. */
   void Add(const SurfaceMesh& mesh, int v)
   {
     this->Eighteenfold += OfVertex(mesh, this->Origin, v);
@@ -28,7 +28,7 @@ public:
 
   double Value() const { return this->Eighteenfold / 18.; }
 
-  /** Eighteen times the share of an alive vertex. */
+  /** Return 18 times the contribution of an alive vertex. */
   static double OfVertex(const SurfaceMesh& mesh, const VectorD& origin, int v)
   {
     const Ring& ring = mesh.Rings[v];
@@ -38,10 +38,10 @@ public:
       fan += Cross(VectorD(mesh.Position[ring.Item[i]]) - origin,
         VectorD(mesh.Position[ring.Next(i)]) - origin);
     }
-    // Six times the tetrahedra of its faces, each of which is seen from three corners.
+    // 6 times the volume of the tetrahedra of its faces, each of which has three corners.
     return Dot(VectorD(mesh.Position[v]) - origin, fan);
   }
-  /** Six times the share of a face, which is that of its corners together. */
+  /** Return 6 times the contribution of a face, which is that of its three corners together. */
   static double OfFace(const SurfaceMesh& mesh, const VectorD& origin, int a, int b, int c)
   {
     return Dot(VectorD(mesh.Position[a]) - origin,
@@ -54,14 +54,14 @@ private:
   double Eighteenfold = 0.;
 };
 
-/** The signed volume of all components, workspace. The same bits for any executor. */
+/** Return the signed volume of all components. Bit-identical for any executor. */
 double EnclosedVolume(const SurfaceMesh& mesh, Executor& executor);
 
-/** What the vertices lie in, workspace; a box about the origin where there are none. */
+/** Return the bounding box of the alive vertices, or a box at the origin if there are none. */
 Box BoundsOf(const SurfaceMesh& mesh, Executor& executor);
 
-/** A third of the area of the faces about a vertex; 0 if it is not alive. */
-double AreaShare(const SurfaceMesh& mesh, int v);
+/** Return a third of the area of the faces at a vertex, 0 if it is not alive. */
+double VertexArea(const SurfaceMesh& mesh, int v);
 }
 
 #endif

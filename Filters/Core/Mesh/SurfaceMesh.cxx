@@ -4,9 +4,9 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Grow.h"
-#include "Core/Common/Refuse.h"
 #include "Core/Common/Sort.h"
 #include "Core/Common/Spans.h"
+#include "Core/Common/ThrowInvalidArgument.h"
 
 #include <algorithm>
 #include <atomic>
@@ -20,7 +20,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 }
 
@@ -36,7 +35,7 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   {
     if (second.Contains(first.Item[i]))
     {
-      return false; // Two edges: nearly all that are near and no neighbours.
+      return false; // Two edges apart: the most frequent case.
     }
   }
   for (int i = 0; i < first.Count; ++i)
@@ -53,13 +52,13 @@ bool SurfaceMesh::AreFarApart(int v, int w) const
   return true;
 }
 
-int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
+int SurfaceMesh::AddVertex(const Vector& position, VertexSlots* slots)
 {
   int v = this->Size();
-  if (room)
+  if (slots)
   {
-    v = room->Next++;
-    ++room->Added;
+    v = slots->Next++;
+    ++slots->Added;
   }
   else
   {
@@ -70,16 +69,16 @@ int SurfaceMesh::AddVertex(const Vector& position, VertexRoom* room)
   return v;
 }
 
-void SurfaceMesh::RemoveVertex(int v, VertexRoom* room)
+void SurfaceMesh::RemoveVertex(int v, VertexSlots* slots)
 {
   this->Rings[v].Count = 0;
-  if (room)
+  if (slots)
   {
-    --room->Added;
+    --slots->Added;
   }
   else
   {
-    ++this->Empty;
+    ++this->FreeSlots;
   }
 }
 
@@ -100,13 +99,13 @@ std::int64_t SurfaceMesh::NumberOfFaces(Executor& executor) const
 
 int SurfaceMesh::CountEulerCharacteristic(Executor& executor) const
 {
-  // Every face has three half edges, every edge two: V - E + F = V - F / 2.
+  // Each face has three half-edges, each edge two: V - E + F = V - F / 2.
   return static_cast<int>(this->NumberOfVertices() - this->NumberOfFaces(executor) / 2);
 }
 
 namespace
 {
-/** For each span of vertices the number of alive ones before it, and that of all. */
+/** Return the number of alive vertices before each span, and the total. */
 std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 {
   return FirstOfSpans(executor, mesh.Rings.size(), VertexSpan,
@@ -121,8 +120,8 @@ std::vector<std::size_t> FirstAlive(const SurfaceMesh& mesh, Executor& executor)
 IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
 {
   IndexedSurface surface;
-  LargeVector<int> place; // Written, and made room for, by threads.
-  MakeZeroed(place, this->Rings.size());
+  LargeVector<int> newIndex; // Allocated and written by threads.
+  MakeZeroed(newIndex, this->Rings.size());
   const std::vector<std::size_t> firstPoint = FirstAlive(*this, executor);
   MakeZeroed(surface.Points, firstPoint.back());
   ForSpans(executor, this->Rings.size(), VertexSpan,
@@ -133,7 +132,7 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
       {
         if (this->IsAlive(static_cast<int>(v)))
         {
-          place[v] = static_cast<int>(next);
+          newIndex[v] = static_cast<int>(next);
           const Vector& p = this->Position[v];
           surface.Points[next++] = { p.X, p.Y, p.Z };
         }
@@ -148,7 +147,7 @@ IndexedSurface SurfaceMesh::ToIndexed(Executor& executor) const
       std::size_t next = firstFace[span];
       this->VisitFaces(begin, end,
         [&](int a, int b, int c) {
-          surface.Triangles[next++] = { place[a], place[b], place[c] };
+          surface.Triangles[next++] = { newIndex[a], newIndex[b], newIndex[c] };
         });
     });
   return surface;
@@ -158,15 +157,14 @@ namespace
 {
 using DirectedEdge = std::pair<int, int>;
 
-/** Triangles that one thread looks at at a time. */
 constexpr std::size_t TriangleSpan = 16384;
 
-/** For each point of a surface the corners of triangles that lie there. */
+/** Triangle corners at each point of a surface. */
 class CornersOfPoints
 {
 public:
   CornersOfPoints(const IndexedSurface& surface, Executor& executor)
-    : Surface(surface), Left(surface.Points.size()), Start(surface.Points.size() + 1, 0),
+    : Surface(surface), Remaining(surface.Points.size()), Start(surface.Points.size() + 1, 0),
       Corners(3 * surface.Triangles.size())
   {
     const auto forCorners = [&](auto&& visit)
@@ -184,22 +182,22 @@ public:
         });
     };
     forCorners(
-      [this](int point, int) { this->Left[point].fetch_add(1, std::memory_order_relaxed); });
-    for (std::size_t p = 0; p < this->Left.size(); ++p)
+      [this](int point, int) { this->Remaining[point].fetch_add(1, std::memory_order_relaxed); });
+    for (std::size_t p = 0; p < this->Remaining.size(); ++p)
     {
-      this->Start[p + 1] = this->Start[p] + this->Left[p].load(std::memory_order_relaxed);
+      this->Start[p + 1] = this->Start[p] + this->Remaining[p].load(std::memory_order_relaxed);
     }
     forCorners(
       [this](int point, int corner)
       {
-        const int last = this->Left[point].fetch_sub(1, std::memory_order_relaxed) - 1;
+        const int last = this->Remaining[point].fetch_sub(1, std::memory_order_relaxed) - 1;
         this->Corners[this->Start[point] + last] = corner;
       });
   }
 
   int Count(std::size_t point) const { return this->Start[point + 1] - this->Start[point]; }
 
-  /** The edges opposite to a point, in the order of the triangles, whichever thread came first. */
+  /** Find the edges opposite to a point, in the order of the triangles for any executor. */
   void FindOppositeEdges(std::size_t point, std::vector<DirectedEdge>& edges)
   {
     std::sort(
@@ -215,23 +213,24 @@ public:
 
 private:
   const IndexedSurface& Surface;
-  LargeVector<std::atomic<int>> Left; ///< Of the corners of a point those that have no place yet.
-  LargeVector<int> Start;             ///< Of those of each point, and the end of the last.
-  LargeVector<int> Corners;           ///< 3 x triangle + place in it.
+  LargeVector<std::atomic<int>> Remaining; ///< By point: corners not stored yet.
+  LargeVector<int> Start;                  ///< By point: index of its first corner in Corners.
+  LargeVector<int> Corners;                ///< 3 x triangle + index in it.
 };
 
-/** The ring that the edges opposite to a vertex make, which are left in `edges`. */
+/** Return the ring of a vertex from the edges opposite to it. `edges` is a buffer. */
 Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edges)
 {
   const int count = corners.Count(static_cast<std::size_t>(vertex));
   if (count < 3)
   {
-    Refuse("the surface is not closed: vertex ", vertex, " has ", count, " triangles");
+    ThrowInvalidArgument(
+      "the surface is not closed: vertex ", vertex, " has ", count, " triangles. Fill its holes.");
   }
   if (count > Ring::Capacity)
   {
-    Refuse(
-      "vertex ", vertex, " of the surface has ", count, " neighbours, more than ", Ring::Capacity);
+    ThrowInvalidArgument("vertex ", vertex, " of the surface has ", count,
+      " neighbours, but at most ", Ring::Capacity, " are supported. Remesh the surface.");
   }
   corners.FindOppositeEdges(static_cast<std::size_t>(vertex), edges);
   Ring ring;
@@ -239,7 +238,7 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
   for (int i = 0; i < count; ++i)
   {
     ring.Item[i] = edges[i].first;
-    // Bring the edge that begins where this one ends to the next place.
+    // Move the edge that begins where this one ends to the next position.
     for (int j = i + 1; j < count; ++j)
     {
       if (edges[j].first == edges[i].second)
@@ -252,7 +251,8 @@ Ring RingOf(int vertex, CornersOfPoints& corners, std::vector<DirectedEdge>& edg
     const bool closesEarly = i + 1 < count && edges[i].second == edges[0].first;
     if (!follows || closesEarly)
     {
-      Refuse("the surface is not a closed oriented manifold at vertex ", vertex);
+      ThrowInvalidArgument(
+        "the surface is not a closed oriented manifold at vertex ", vertex, ". Repair it.");
     }
   }
   return ring;
@@ -264,7 +264,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   const std::size_t n = surface.Points.size();
   CornersOfPoints corners(surface, executor);
   const int first = this->Size();
-  LargeVector<Ring> rings(n); // Nothing is added before all is found to be sound.
+  LargeVector<Ring> rings(n); // The mesh changes only if the whole surface is valid.
   const auto find = [&](std::size_t begin, std::size_t end)
   {
     std::vector<DirectedEdge> edges;
@@ -294,7 +294,7 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
   {
     if (fault)
     {
-      std::rethrow_exception(fault); // The first one, whichever was found first.
+      std::rethrow_exception(fault); // First by index: does not depend on the executor.
     }
   }
   this->Position.resize(this->Position.size() + n);
@@ -310,17 +310,18 @@ int SurfaceMesh::Append(const IndexedSurface& surface, Executor& executor)
 
 void SurfaceMesh::Reorder(const std::vector<int>& order, Executor& executor)
 {
-  VertexSpares spares;
-  this->Reorder(order, spares, executor);
+  ReorderBuffers buffers;
+  this->Reorder(order, buffers, executor);
 }
 
-void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+void SurfaceMesh::Reorder(
+  const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor)
 {
   const std::size_t n = order.size();
-  this->Empty = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
-  volumic::Reorder(this->Position, order, spares, executor);
-  LargeVector<int> place;
-  MakeZeroed(place, this->Rings.size());
+  this->FreeSlots = static_cast<int>(std::count(order.begin(), order.end(), NoVertex));
+  volumic::Reorder(this->Position, order, buffers, executor);
+  LargeVector<int> newIndex;
+  MakeZeroed(newIndex, this->Rings.size());
   ForSpans(executor, n, VertexSpan,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -328,11 +329,11 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, E
       {
         if (order[i] != NoVertex)
         {
-          place[order[i]] = static_cast<int>(i);
+          newIndex[order[i]] = static_cast<int>(i);
         }
       }
     });
-  LargeVector<Ring>& rings = spares.Spare<Ring>::Values;
+  LargeVector<Ring>& rings = buffers.ReorderBuffer<Ring>::Values;
   MakeRoom(rings, n);
   rings.resize(n);
   ForSpans(executor, n, VertexSpan,
@@ -347,14 +348,14 @@ void SurfaceMesh::Reorder(const std::vector<int>& order, VertexSpares& spares, E
           const Ring& before = this->Rings[order[i]];
           ring.Count = before.Count;
           std::transform(before.Item, before.Item + before.Count, ring.Item,
-            [&place](int w) { return place[w]; });
+            [&newIndex](int w) { return newIndex[w]; });
         }
       }
     });
   this->Rings.swap(rings);
 }
 
-void SurfaceMesh::Remake(std::size_t n)
+void SurfaceMesh::Allocate(std::size_t n)
 {
   this->Clear();
   MakeRoom(this->Position, n);
@@ -367,12 +368,12 @@ void SurfaceMesh::Clear()
 {
   this->Position = {};
   this->Rings = {};
-  this->Empty = 0;
+  this->FreeSlots = 0;
 }
 
 namespace
 {
-/** Two zeros between the bits of a number of 21 bits, for a Morton code. */
+/** Insert two zeros between the bits of a 21-bit number, for a Morton code. */
 std::uint64_t SpreadBits(std::uint64_t x)
 {
   x &= 0x1fffff;
@@ -384,8 +385,7 @@ std::uint64_t SpreadBits(std::uint64_t x)
   return x;
 }
 
-/** Of a position on a Z-order (Morton) curve with cells of side `cell`, the first of which is at
- * `low`. */
+/** Return the Z-order (Morton) code of a position, with cells of side `cell` from `low`. */
 std::uint64_t MortonCode(const Vector& position, const Vector& low, double cell)
 {
   const auto bits = [cell](float x, float from)
@@ -398,7 +398,8 @@ std::vector<int> SpaceFillingOrder(const SurfaceMesh& mesh, double cell, Executo
 {
   const std::size_t n = mesh.Rings.size();
   constexpr float most = std::numeric_limits<float>::max();
-  const Vector low = JoinVertices(mesh, executor, Vector(most, most, most),
+  const Vector low = JoinVertices(
+    mesh, executor, Vector(most, most, most),
     [&](int v, Vector& least)
     { least = mesh.IsAlive(v) ? Minimum(least, mesh.Position[v]) : least; },
     [](const Vector& a, const Vector& b) { return Minimum(a, b); });

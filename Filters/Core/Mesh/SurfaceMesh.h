@@ -17,24 +17,21 @@
 
 namespace volumic
 {
-/** Of a closed surface of triangles: E = 3 (V - chi), soon more than an int counts. */
+/** Return the edges of a closed triangulated surface: E = 3 (V - chi), which may exceed int. */
 constexpr std::int64_t NumberOfEdges(std::int64_t vertices, std::int64_t eulerCharacteristic)
 {
   return 3 * (vertices - eulerCharacteristic);
 }
 
-/**
- * The neighbours of a vertex, counter-clockwise seen from outside. A whole ring is one cache line,
- * which is what bounds the valence.
- */
+/** Neighbours of a vertex, counter-clockwise from outside. A cache line limits the valence. */
 struct alignas(64) Ring
 {
   static constexpr int Capacity = 15;
 
-  int Count = 0; ///< The valence; 0 marks an index that no vertex has.
+  int Count = 0; ///< Valence; 0 marks a free slot.
   int Item[Capacity];
 
-  /** Position of a neighbour in the ring, -1 where it is none. */
+  /** Return the index of a neighbour in the ring, or -1. */
   int Find(int vertex) const
   {
     for (int i = 0; i < this->Count; ++i)
@@ -49,7 +46,7 @@ struct alignas(64) Ring
   bool Contains(int vertex) const { return this->Find(vertex) >= 0; }
   int Next(int i) const { return this->Item[i + 1 < this->Count ? i + 1 : 0]; }
   int Previous(int i) const { return this->Item[i > 0 ? i - 1 : this->Count - 1]; }
-  /** The neighbour that follows `vertex`, which must be one. */
+  /** Return the neighbour after `vertex`, which must be in the ring. */
   int After(int vertex) const { return this->Next(this->Find(vertex)); }
   int Before(int vertex) const { return this->Previous(this->Find(vertex)); }
 
@@ -75,37 +72,40 @@ struct alignas(64) Ring
 };
 
 /**
- * Places that follow each other, for the new vertices of edits that are made where others edit the
- * same mesh elsewhere; what is added and removed is counted here.
+ * Range of reserved vertex slots for edits that run while other threads edit other parts of the
+ * mesh. It counts the vertices that these edits add and remove.
  */
-struct VertexRoom
+struct VertexSlots
 {
   int Next = 0;
   int End = 0;
-  int Added = 0; ///< Vertices, less those removed.
+  int Added = 0; ///< Added minus removed vertices.
   bool Has(int n) const { return this->End - this->Next >= n; }
 };
 
-/** In an order of vertices: a place without one. */
+/** Marks a free slot in an order of vertices. */
 constexpr int NoVertex = -1;
 
-/** Memory for values of vertices that are reordered; arrays of other types go through the rings'. */
+/** Buffers for reordered vertex values. Arrays of other types use the buffer of the rings. */
 template <typename T>
-struct Spare
+struct ReorderBuffer
 {
   LargeVector<T> Values;
 };
-struct VertexSpares : Spare<Ring>, Spare<Vector>, Spare<float>, Spare<std::uint8_t>
+struct ReorderBuffers
+  : ReorderBuffer<Ring>
+  , ReorderBuffer<Vector>
+  , ReorderBuffer<float>
+  , ReorderBuffer<std::uint8_t>
 {
 };
 
 /**
- * A closed oriented triangulated mesh, possibly of several components.
+ * Closed oriented triangle mesh of one or more components.
  *
  * The rings alone are the connectivity: the faces are the triangles (v, ring[i], ring[i + 1]).
- * There are no face or edge records to keep up to date, and a vertex finds all it needs for the
- * forces in two cache lines. Indices are stable until Reorder(); those of removed vertices are not
- * used again before.
+ * There are no face or edge records. Position and ring of a vertex lie in two cache lines. Indices
+ * are stable, and those of removed vertices are not reused, until Reorder().
  */
 class SurfaceMesh
 {
@@ -113,36 +113,34 @@ public:
   LargeVector<Vector> Position;
   LargeVector<Ring> Rings;
 
-  /** Indices, of alive vertices or not, run below this. */
+  /** Return the number of slots, free ones included. */
   int Size() const { return static_cast<int>(this->Rings.size()); }
-  /** Alive ones, of what was added and removed by way of a VertexRoom as Count() has told. */
-  int NumberOfVertices() const { return this->Size() - this->Empty; }
+  /** Return the number of alive vertices, after Count() of all VertexSlots. */
+  int NumberOfVertices() const { return this->Size() - this->FreeSlots; }
   bool IsAlive(int v) const { return this->Rings[v].Count > 0; }
   bool AreNeighbours(int u, int v) const { return this->Rings[u].Contains(v); }
 
-  /**
-   * Whether two different vertices are far apart on the surface: at least four edges, or not
-   * connected at all.
-   */
+  /** Return whether two different vertices are at least four edges apart or not connected. */
   bool AreFarApart(int v, int w) const;
 
   /**
-   * @param room where its index comes from, which must have one; null: it follows the last one.
-   * @return the index of a new vertex; its ring is the caller's to fill before anything else.
+   * Add a vertex. The caller must set its ring before any other call.
+   * @param slots provides the index and must not be used up; null: the index follows the last one
+   * @return index of the new vertex
    */
-  int AddVertex(const Vector& position, VertexRoom* room = nullptr);
-  /** @param room which counts it; null: it is counted here. */
-  void RemoveVertex(int v, VertexRoom* room = nullptr);
-  /** Counts what was added and removed by way of a room, once nobody uses it any more. */
-  void Count(const VertexRoom& room) { this->Empty -= room.Added; }
+  int AddVertex(const Vector& position, VertexSlots* slots = nullptr);
+  /** Remove a vertex. It is counted in `slots`, or in the mesh if that is null. */
+  void RemoveVertex(int v, VertexSlots* slots = nullptr);
+  /** Add the counts of reserved slots that are no longer in use. */
+  void Count(const VertexSlots& slots) { this->FreeSlots -= slots.Added; }
 
-  /** Calls visit(a, b, c) once for each face, counter-clockwise, a the smallest index. */
+  /** Call visit(a, b, c) once per face, counter-clockwise, with the smallest index first. */
   template <typename Visitor>
   void VisitFaces(Visitor&& visit) const
   {
     this->VisitFaces(0, this->Rings.size(), visit);
   }
-  /** The same for the faces whose smallest index is in a range: those of all ranges are all. */
+  /** Visit the faces whose smallest index is in [begin, end). */
   template <typename Visitor>
   void VisitFaces(std::size_t begin, std::size_t end, Visitor&& visit) const
   {
@@ -160,7 +158,6 @@ public:
       }
     }
   }
-  /** How many these are. */
   std::size_t CountFaces(std::size_t begin, std::size_t end) const
   {
     std::size_t count = 0;
@@ -169,53 +166,50 @@ public:
   }
 
   std::int64_t NumberOfFaces(Executor& executor = OnThisThread()) const;
-  /** V - E + F, counted now. */
+  /** Compute V - E + F. O(vertices). */
   int CountEulerCharacteristic(Executor& executor = OnThisThread()) const;
 
-  /** All alive vertices, in order of index. */
+  /** Return all alive vertices, in the order of their indices, and their faces. */
   IndexedSurface ToIndexed(Executor& executor = OnThisThread()) const;
 
   /**
-   * Adds the components of a closed oriented manifold triangle mesh.
-   * @return index of the first vertex added; the rest follow in order.
-   * @throws std::invalid_argument if it is not closed, oriented and manifold, or a vertex has
-   * more neighbours than a ring holds.
+   * Append the components of a closed oriented manifold triangle mesh.
+   * @return index of the first new vertex; the others follow in order
+   * @throws std::invalid_argument if the surface is not closed, oriented and manifold, or if a
+   *   vertex has more than Ring::Capacity neighbours
    */
   int Append(const IndexedSurface& surface, Executor& executor = OnThisThread());
 
   /**
-   * Renumbers: vertex i of the result is order[i] of before, none where that is NoVertex; all alive
-   * ones must occur once.
-   * @param spares kept from one call to the next, as new memory takes longer than all that is copied
+   * Renumber the vertices: vertex i of the result is the old vertex order[i]. NoVertex makes a free
+   * slot. Each alive vertex must occur once.
+   * @param buffers reused between calls, as allocation takes longer than the copy
    */
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor);
   void Reorder(const std::vector<int>& order, Executor& executor = OnThisThread());
 
   void Clear();
-  /** Makes it one of n vertices, whose positions and rings are the caller's to fill. */
-  void Remake(std::size_t n);
+  /** Make n vertices, whose positions and rings the caller sets. */
+  void Allocate(std::size_t n);
 
 private:
-  int Empty = 0; ///< Places without a vertex.
+  int FreeSlots = 0;
 };
 
-/**
- * Brings values of vertices into a new order, see SurfaceMesh::Reorder; where there is no vertex
- * they are zero. The old values become the spare ones.
- */
+/** Reorder vertex values, see SurfaceMesh::Reorder. The old values become the buffer. */
 template <typename T>
-void Reorder(LargeVector<T>& values, const std::vector<int>& order, VertexSpares& spares,
+void Reorder(LargeVector<T>& values, const std::vector<int>& order, ReorderBuffers& buffers,
   Executor& executor)
 {
-  constexpr bool isSwapped = std::is_base_of_v<Spare<T>, VertexSpares>;
-  using OfSpare = std::conditional_t<isSwapped, T, Ring>;
-  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(OfSpare));
+  constexpr bool isSwapped = std::is_base_of_v<ReorderBuffer<T>, ReorderBuffers>;
+  using BufferType = std::conditional_t<isSwapped, T, Ring>;
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= sizeof(BufferType));
   constexpr std::size_t span = 16384;
   const std::size_t n = order.size();
-  LargeVector<OfSpare>& spare = static_cast<Spare<OfSpare>&>(spares).Values;
-  MakeRoom(spare, n);
-  spare.resize(n);
-  T* const ordered = reinterpret_cast<T*>(spare.data());
+  LargeVector<BufferType>& buffer = static_cast<ReorderBuffer<BufferType>&>(buffers).Values;
+  MakeRoom(buffer, n);
+  buffer.resize(n);
+  T* const ordered = reinterpret_cast<T*>(buffer.data());
   ForSpans(executor, n, span,
     [&](std::size_t, std::size_t begin, std::size_t end)
     {
@@ -226,7 +220,7 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, VertexSpares
     });
   if constexpr (isSwapped)
   {
-    values.swap(spare);
+    values.swap(buffer);
   }
   else
   {
@@ -235,8 +229,8 @@ void Reorder(LargeVector<T>& values, const std::vector<int>& order, VertexSpares
 }
 
 /**
- * Join what add(v, part) makes of `first` from the vertices of each span, also from those that are
- * not alive. The spans are joined in their order: the same for any executor.
+ * Return the join of the parts that add(v, part) makes of `first` for each span of slots, free ones
+ * included. The spans are joined in order: the result does not depend on the executor.
  */
 template <typename T, typename Add, typename Join>
 T JoinVertices(
@@ -258,8 +252,10 @@ T JoinVertices(
   return std::accumulate(parts.begin(), parts.end(), first, join);
 }
 
-/** The alive vertices along a Z-order (Morton) curve with cells of side `cell`, those of one by
- * index. */
+/**
+ * Return the alive vertices along a Z-order (Morton) curve with cells of side `cell`. Vertices of a
+ * cell are sorted by index.
+ */
 std::vector<int> SpaceFillingOrder(
   const SurfaceMesh& mesh, double cell, Executor& executor = OnThisThread());
 }

@@ -13,25 +13,25 @@ double SquaredDistanceToSegment(const VectorD& p, const VectorD& a, const Vector
 {
   const VectorD along = b - a;
   const double length = SquaredLength(along);
-  const double share = length > 0. ? std::clamp(Dot(p - a, along) / length, 0., 1.) : 0.;
-  return SquaredLength(p - a - along * share);
+  const double fraction = length > 0. ? std::clamp(Dot(p - a, along) / length, 0., 1.) : 0.;
+  return SquaredLength(p - a - along * fraction);
 }
 
 double SquaredDistanceOfSegments(
   const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
-  // Where the lines are nearest, if that is within both, else at an end.
+  // Nearest points of the two lines if they lie within both segments, else at an end.
   const VectorD first = b - a;
   const VectorD second = d - c;
   const double ff = SquaredLength(first);
   const double ss = SquaredLength(second);
   const double fs = Dot(first, second);
-  const double size = ff * ss - fs * fs;
-  if (size > 0.)
+  const double squaredArea = ff * ss - fs * fs;
+  if (squaredArea > 0.)
   {
     const VectorD between = c - a;
-    const double s = (Dot(first, between) * ss - Dot(second, between) * fs) / size;
-    const double t = (Dot(first, between) * fs - Dot(second, between) * ff) / size;
+    const double s = (Dot(first, between) * ss - Dot(second, between) * fs) / squaredArea;
+    const double t = (Dot(first, between) * fs - Dot(second, between) * ff) / squaredArea;
     if (s >= 0. && s <= 1. && t >= 0. && t <= 1.)
     {
       return SquaredLength(between + second * t - first * s);
@@ -44,10 +44,10 @@ double SquaredDistanceOfSegments(
 
 double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
 {
-  // Where the foot on the plane lies in the triangle it is nearest, else a point of an edge is.
+  // The projection on the plane if it lies in the triangle, else the nearest point of an edge.
   const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
-  const double size = SquaredLength(normal);
-  bool inside = size > 0.;
+  const double squaredArea = SquaredLength(normal);
+  bool inside = squaredArea > 0.;
   for (int k = 0; k < 3 && inside; ++k)
   {
     inside = Dot(Cross(t[(k + 1) % 3] - t[k], p - t[k]), normal) >= 0.;
@@ -55,7 +55,7 @@ double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
   if (inside)
   {
     const double height = Dot(normal, p - t[0]);
-    return height * height / size;
+    return height * height / squaredArea;
   }
   return std::min({ SquaredDistanceToSegment(p, t[0], t[1]),
     SquaredDistanceToSegment(p, t[1], t[2]), SquaredDistanceToSegment(p, t[2], t[0]) });

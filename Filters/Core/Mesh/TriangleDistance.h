@@ -8,13 +8,13 @@
 
 namespace volumic
 {
-/** From a place to the nearest point of a triangle, given by its three corners. */
-double SquaredDistanceToTriangle(const VectorD& place, const VectorD* triangle);
+/** Return the squared distance from a point to a triangle, given by its three corners. */
+double SquaredDistanceToTriangle(const VectorD& point, const VectorD* triangle);
 
 /**
- * How near two triangles of one mesh come to each other where they have nothing in common: the
- * least distance of a corner of the one, which the other one has not, from that, or between two
- * edges without a common end.
+ * Return the squared distance of two triangles of a mesh apart from their common vertices: the
+ * least distance between a corner of one that is not in the other and that other triangle, or
+ * between two edges without a common end.
  */
 double SquaredGapBetween(const MeshTriangle& f, const MeshTriangle& g);
 }

@@ -11,13 +11,13 @@ namespace volumic
 {
 namespace
 {
-/** Of the normals of two triangles that are folded onto each other: 1.15 degrees from opposite. */
+/** Normals of triangles that are folded onto each other: within 1.15 degrees of opposite. */
 constexpr double FoldedCosine = -0.9998;
 
 struct Plane
 {
   VectorD Normal; ///< Not normalised.
-  double Size;    ///< Its length.
+  double Size;    ///< Length of Normal.
 };
 
 Plane PlaneOf(const VectorD* t)
@@ -31,7 +31,7 @@ double Side(const double* a, const double* b, const double* c)
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/** In the plane, without tolerance, rounded in double. */
+/** Return whether two segments in a plane intersect. Evaluated in double without tolerance. */
 bool SegmentsCross(const double* p, const double* q, const double* a, const double* b)
 {
   const double sp = Side(a, b, p);
@@ -76,9 +76,9 @@ bool IntersectInPlane(const VectorD& normal, const VectorD& p, const VectorD& q,
 }
 
 /**
- * Whether two sets of points are apart along an axis. The tests below measure distances to lines
- * and planes: they stretch a triangle that is nearly a line far beyond its tips, where the
- * three lines, each set off by the tolerance, intersect. Its box bounds that.
+ * Return whether the bounding boxes of two point sets are disjoint along an axis. The tests below
+ * measure distances to lines and planes. For a triangle that is nearly a line they accept points
+ * far beyond its tips, which this test excludes.
  */
 bool BoxesApart(
   const VectorD* p, int countP, const VectorD* q, int countQ, double VectorD::*axis, double margin)
@@ -122,9 +122,9 @@ bool SegmentIntersects(
     const VectorD ends[2] = { p, q };
     return !BoxesApart(ends, 2, t, 3, tolerance) && IntersectInPlane(plane.Normal, p, q, t);
   }
-  // Where the segment passes the plane, or comes nearest to it: is that inside?
-  const double share = std::min(std::max(dp / (dp - dq), 0.), 1.);
-  const VectorD x = p + (q - p) * share;
+  // Test the point where the segment crosses the plane, or comes nearest to it.
+  const double fraction = std::min(std::max(dp / (dp - dq), 0.), 1.);
+  const VectorD x = p + (q - p) * fraction;
   if (BoxesApart(&x, 1, t, 3, 2 * tolerance))
   {
     return false;
@@ -141,17 +141,17 @@ bool SegmentIntersects(
 }
 
 /**
- * Whether a plane through the common corner of two triangles separates the edges opposite to it by
- * so much that none of the tests below can find an intersection. Those tests accept points up to
- * one tolerance from the plane of a triangle. In that plane they accept points up to 3 sqrt 3
- * tolerances from the triangle, at a sharp corner, where only the bounding box limits them.
- * Returns false for slivers, whose normals are unreliable.
+ * Return whether a plane through the common corner of two triangles separates the edges opposite to
+ * it by so much that none of the tests below can find an intersection. Those tests accept points up
+ * to one tolerance from the plane of a triangle. In that plane they accept points up to 3 sqrt 3
+ * tolerances from the triangle, at a sharp corner, where only the bounding box limits them. Return
+ * false for slivers, whose normals are unreliable.
  */
-bool PartedAtCorner(
+bool SeparatedAtCorner(
   const VectorD& corner, const VectorD* endsF, const VectorD* endsG, double tolerance)
 {
   constexpr double leastTolerances = 8;
-  constexpr double leastShare = 1e-3;
+  constexpr double leastRatio = 1e-3;
   constexpr double leastSine = 1e-6;
   const VectorD a = endsF[0] - corner;
   const VectorD b = endsF[1] - corner;
@@ -159,7 +159,7 @@ bool PartedAtCorner(
   const VectorD d = endsG[1] - corner;
   const VectorD across = a + b - c - d;
   const double length = Length(across);
-  const double least = length * (leastTolerances * tolerance + leastShare * length);
+  const double least = length * (leastTolerances * tolerance + leastRatio * length);
   const auto isSliver = [](const VectorD& p, const VectorD& q)
   {
     const VectorD normal = Cross(p, q);
@@ -169,8 +169,8 @@ bool PartedAtCorner(
     Dot(across, d) < -least && !isSliver(a, b) && !isSliver(c, d);
 }
 
-bool OnOneSide(const VectorD* points, int count, const VectorD& origin, const Plane& plane,
-  double tolerance)
+bool OnOneSide(
+  const VectorD* points, int count, const VectorD& origin, const Plane& plane, double tolerance)
 {
   const double thick = tolerance * plane.Size;
   bool above = true;
@@ -189,7 +189,7 @@ bool IntersectBeyondCorner(const VectorD* f, int i, const VectorD* g, int j, dou
 {
   const VectorD endsF[2] = { f[(i + 1) % 3], f[(i + 2) % 3] };
   const VectorD endsG[2] = { g[(j + 1) % 3], g[(j + 2) % 3] };
-  if (PartedAtCorner(f[i], endsF, endsG, tolerance))
+  if (SeparatedAtCorner(f[i], endsF, endsG, tolerance))
   {
     return false;
   }
@@ -246,7 +246,7 @@ bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tol
   if (shared == 2)
   {
     const Plane planeG = PlaneOf(g.Corner);
-    // Neighbours of one orientation go along their edge in opposite directions.
+    // Consistently oriented neighbours traverse their edge in opposite directions.
     const bool isForwardInF = (inF[1] - inF[0] + 3) % 3 == 1;
     const bool isForwardInG = (inG[1] - inG[0] + 3) % 3 == 1;
     const double side = isForwardInF != isForwardInG ? 1. : -1.;

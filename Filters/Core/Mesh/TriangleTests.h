@@ -7,7 +7,7 @@
 
 namespace volumic
 {
-/** A triangle with the indices of its vertices, so that shared corners are recognised. */
+/** Triangle with the indices of its vertices, which identify shared corners. */
 struct MeshTriangle
 {
   int Vertex[3];
@@ -16,16 +16,15 @@ struct MeshTriangle
 
 class SurfaceMesh;
 
-/** The triangle of three vertices, at their positions. */
 MeshTriangle TriangleOf(const SurfaceMesh& mesh, int a, int b, int c);
 
 /**
- * Whether two triangles of one mesh intersect anywhere but in the corners or the edge they share.
+ * Return whether two triangles of a mesh intersect apart from the corners or the edge they share.
  *
- * Coordinates must come from floats. The test is conservative: triangles that come nearer
- * than about `tolerance` (a length) count as intersecting, so a "no" also survives the rounding of
- * a later map to world coordinates. Two that share an edge intersect when they are folded onto each
- * other to within about a degree.
+ * Coordinates must be exact in float. The test is conservative: triangles nearer than about
+ * `tolerance` (a length) count as intersecting, so a negative result remains valid after the
+ * rounded transform to world coordinates. Triangles that share an edge intersect if they are folded
+ * onto each other to within about one degree.
  */
 bool TrianglesIntersect(const MeshTriangle& f, const MeshTriangle& g, double tolerance);
 }

@@ -15,15 +15,15 @@ namespace volumic
 {
 namespace
 {
-/** So few triangles are not divided any further. Changes the time only. */
+/** Maximum number of triangles in a leaf. Affects the run time only. */
 constexpr int LeafSize = 4;
 
-double SquaredDistanceToBox(const Point& place, const Bounds& box)
+double SquaredDistanceToBox(const Point& point, const Bounds& box)
 {
   double sum = 0.;
   for (int k = 0; k < 3; ++k)
   {
-    const double beyond = std::max({ box.Low[k] - place[k], place[k] - box.High[k], 0. });
+    const double beyond = std::max({ box.Low[k] - point[k], point[k] - box.High[k], 0. });
     sum += beyond * beyond;
   }
   return sum;
@@ -89,9 +89,9 @@ int TriangleTree::Build(int begin, int end, const LargeVector<Point>& centres)
   return at;
 }
 
-double TriangleTree::SquaredDistance(const Point& place) const
+double TriangleTree::SquaredDistance(const Point& point) const
 {
-  const VectorD p(place[0], place[1], place[2]);
+  const VectorD p(point[0], point[1], point[2]);
   double nearest = std::numeric_limits<double>::max();
   struct Branch
   {
@@ -112,9 +112,9 @@ double TriangleTree::SquaredDistance(const Point& place) const
     if (node.SecondChild >= 0)
     {
       Branch closer{ branch.Node + 1,
-        SquaredDistanceToBox(place, this->Nodes[branch.Node + 1].Box) };
+        SquaredDistanceToBox(point, this->Nodes[branch.Node + 1].Box) };
       Branch further{ node.SecondChild,
-        SquaredDistanceToBox(place, this->Nodes[node.SecondChild].Box) };
+        SquaredDistanceToBox(point, this->Nodes[node.SecondChild].Box) };
       if (closer.Squared > further.Squared)
       {
         std::swap(closer, further);

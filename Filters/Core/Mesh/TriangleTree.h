@@ -11,27 +11,26 @@
 namespace volumic
 {
 /**
- * The triangles of a surface in a binary tree of boxes. Unlike a grid it suits triangles of any
- * mixture of sizes: it has fewer nodes than there are triangles, however large these are. It is
- * made the same way in every run. The surface must outlive it; lengths are those of its points.
+ * Binary tree of bounding boxes of the triangles of a surface, for triangles of very different
+ * sizes. Deterministic. The surface must outlive the tree. Lengths are in the unit of its points.
  */
 class TriangleTree
 {
 public:
   struct Node
   {
-    Bounds Box; ///< Of its triangles.
-    int Begin;  ///< Of its triangles in the order of the tree.
+    Bounds Box;
+    int Begin; ///< Range of its triangles in Order.
     int End;
-    int SecondChild;  ///< Index of the node; the first child follows its parent. -1: a leaf.
-    int LargestIndex; ///< Of its triangles.
+    int SecondChild;  ///< Node index; the first child follows its parent. -1: leaf.
+    int LargestIndex; ///< Largest index of its triangles.
   };
 
   explicit TriangleTree(const IndexedSurface& surface);
 
   /**
-   * Calls visit(triangle) for the triangles of all leaves that are reached: below nodes for which
-   * enter(node) says so. Stops where visit returns false.
+   * Call visit(triangle) for the triangles of all leaves whose ancestors, and themselves, satisfy
+   * enter(node). Stop if visit returns false.
    */
   template <typename Enter, typename Visit>
   void Traverse(Enter&& enter, Visit&& visit) const
@@ -66,41 +65,41 @@ public:
     }
   }
 
-  /** How often those triangles wind round a place for which counts(triangle) says so. */
+  /** Return the winding number of the triangles with counts(triangle) about a point. */
   template <typename Counts>
-  int WindingAbout(const Point& place, const Counts& counts) const
+  int WindingNumber(const Point& point, const Counts& counts) const
   {
     int winding = 0;
     this->Traverse(
-      [&place](const Node& node)
+      [&point](const Node& node)
       {
-        return node.Box.Low[0] <= place[0] && node.Box.Low[1] <= place[1] &&
-          place[1] <= node.Box.High[1] && node.Box.Low[2] <= place[2] &&
-          place[2] <= node.Box.High[2];
+        return node.Box.Low[0] <= point[0] && node.Box.Low[1] <= point[1] &&
+          point[1] <= node.Box.High[1] && node.Box.Low[2] <= point[2] &&
+          point[2] <= node.Box.High[2];
       },
       [&](int i)
       {
         const Triangle& t = this->Surface.Triangles[i];
         const auto corner = [&](int k) -> const Point& { return this->Surface.Points[t[k]]; };
         const RowCrossing crossing =
-          RowCrossing::Of(corner(0), corner(1), corner(2), place[1], place[2]);
-        winding += crossing.X < place[0] && counts(i) ? crossing.Winding : 0;
+          RowCrossing::Of(corner(0), corner(1), corner(2), point[1], point[2]);
+        winding += crossing.X < point[0] && counts(i) ? crossing.Winding : 0;
         return true;
       });
     return winding;
   }
 
-  /** Distance to the nearest of the triangles, squared. */
-  double SquaredDistance(const Point& place) const;
+  /** Return the squared distance to the nearest triangle. */
+  double SquaredDistance(const Point& point) const;
 
 private:
-  /** The tree is balanced: this serves any number of triangles that an int counts. */
+  /** The tree is balanced, so this suffices for any number of triangles in an int. */
   static constexpr int MaximumDepth = 64;
 
   int Build(int begin, int end, const LargeVector<Point>& centres);
 
   const IndexedSurface& Surface;
-  LargeVector<int> Order; ///< The triangles, those of a node side by side.
+  LargeVector<int> Order; ///< Triangles; those of a node are contiguous.
   LargeVector<Node> Nodes;
 };
 }

@@ -12,18 +12,18 @@ namespace volumic
 namespace
 {
 /**
- * A box much larger than what the surface could fill must not cost memory without limit: places for
- * bricks take 8 bytes each. So many do for 2048 cells along each axis, and numbers of 32 bits for
- * 1625 of them: images of 2500^3 voxels. Beyond that cells grow.
+ * Limits of the memory of a grid, whatever its box: 8 bytes per brick pointer, and 32 bits per cell
+ * number. They allow 2048 cells along each axis for the first and 1625 for the second, which
+ * suffices for images of 2500^3 voxels. Larger grids get larger cells.
  */
 constexpr double MaximumNumberOfBricks = 1 << 24;
 constexpr double MaximumNumberOfCells = 4294967295.;
-/** Bricks that are allocated at once; they take 2 KiB each. */
+/** Minimum and maximum number of bricks per allocation, at 2 KiB each. */
 constexpr std::size_t FewBricks = 32;
 constexpr std::size_t ManyBricks = 1 << 15;
-/** What cells grow by until they are few enough. */
+/** Growth factor of the cell size until the limits are met. */
 constexpr float CellGrowth = 1.25f;
-/** Vertices that one thread sorts into layers at a time. */
+/** Vertices per task that are sorted into layers. */
 constexpr std::size_t InsertedSpan = 1 << 14;
 }
 
@@ -52,10 +52,11 @@ void VertexGrid::Reset(const Vector& low, const Vector& high, float cell)
   this->Inverse = 1.f / cell;
   this->BricksAlong[0] = static_cast<int>(bricks(size[0]));
   this->BricksAlong[1] = static_cast<int>(bricks(size[1]));
-  const auto places = static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
+  const auto numberOfBricks =
+    static_cast<std::size_t>(bricks(size[0]) * bricks(size[1]) * bricks(size[2]));
   this->Made.clear();
   this->NumberMade = 0;
-  this->Bricks = LargeVector<std::atomic<Brick*>>(places); // All null.
+  this->Bricks = LargeVector<std::atomic<Brick*>>(numberOfBricks);
   this->Next = {};
   this->Cell = {};
 }
@@ -114,7 +115,7 @@ int& VertexGrid::HeadOf(std::uint32_t cell)
   {
     brick = this->MakeBrick(number);
   }
-  return (*brick)[PlaceInBrick(x, y, z)];
+  return (*brick)[IndexInBrick(x, y, z)];
 }
 
 void VertexGrid::Link(int v, std::uint32_t cell)
@@ -140,13 +141,13 @@ void VertexGrid::Insert(int v, const Vector& position)
 
 namespace
 {
-/** What threads have to do in layers that they can work in side by side. */
-class LayeredWork
+/** Lists of vertices by layer of bricks. Threads process different layers concurrently. */
+class LayeredTasks
 {
 public:
-  /** @param put(i, add): calls add(layer, vertex) for the item, or not. */
+  /** @param put put(i, add) calls add(layer, vertex) for item i, or does nothing */
   template <typename Put>
-  LayeredWork(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
+  LayeredTasks(Executor& executor, std::size_t items, std::size_t layers, Put&& put)
     : Layers(layers), Lists((items + InsertedSpan - 1) / InsertedSpan)
   {
     ForSpans(executor, items, InsertedSpan,
@@ -160,9 +161,9 @@ public:
       });
   }
 
-  /** work(v) for all vertices: in a layer one after the other, in their order. */
+  /** Call work(v) for all vertices: sequentially and in order within a layer. */
   template <typename Work>
-  void Do(Executor& executor, Work&& work) const
+  void Run(Executor& executor, Work&& work) const
   {
     ForSpans(executor, this->Layers, 1,
       [&](std::size_t layer, std::size_t, std::size_t)
@@ -188,7 +189,7 @@ void VertexGrid::InsertAll(const LargeVector<Vector>& positions, std::size_t fir
 {
   this->Resize(positions.size());
   const auto layers = static_cast<std::size_t>((this->Size[2] + Mask) >> Bits);
-  const LayeredWork linking(executor, positions.size() - first, layers,
+  const LayeredTasks linking(executor, positions.size() - first, layers,
     [&](std::size_t i, auto&& add)
     {
       const int v = static_cast<int>(first + i);
@@ -197,7 +198,7 @@ void VertexGrid::InsertAll(const LargeVector<Vector>& positions, std::size_t fir
         add(this->LayerOf(this->CellOf(positions[v])), v);
       }
     });
-  linking.Do(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
+  linking.Run(executor, [&](int v) { this->Link(v, this->CellOf(positions[v])); });
 }
 
 void VertexGrid::Remove(int v)

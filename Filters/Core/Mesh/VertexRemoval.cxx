@@ -11,12 +11,12 @@ bool VertexRemoval::IsLegal(const SurfaceMesh& mesh) const
     mesh.Rings[ring.Item[1]].Count > 3 && mesh.Rings[ring.Item[2]].Count > 3;
 }
 
-void VertexRemoval::Apply(SurfaceMesh& mesh, VertexRoom* room) const
+void VertexRemoval::Apply(SurfaceMesh& mesh, VertexSlots* slots) const
 {
   for (int i = 0; i < 3; ++i)
   {
     mesh.Rings[mesh.Rings[this->Vertex].Item[i]].Remove(this->Vertex);
   }
-  mesh.RemoveVertex(this->Vertex, room);
+  mesh.RemoveVertex(this->Vertex, slots);
 }
 }

@@ -7,14 +7,14 @@
 
 namespace volumic
 {
-/** Removes a vertex of valence 3; its three faces become one. chi stays. */
+/** Removal of a vertex of valence 3: its three faces become one. chi is unchanged. */
 struct VertexRemoval
 {
   int Vertex = -1;
 
-  /** Whether the valence is 3 and the neighbours keep at least 3. */
+  /** Return whether the valence is 3 and each neighbour keeps a valence of at least 3. */
   bool IsLegal(const SurfaceMesh& mesh) const;
-  void Apply(SurfaceMesh& mesh, VertexRoom* room = nullptr) const;
+  void Apply(SurfaceMesh& mesh, VertexSlots* slots = nullptr) const;
 };
 }
 

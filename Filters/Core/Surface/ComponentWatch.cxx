@@ -11,14 +11,14 @@ namespace volumic
 {
 namespace
 {
-/** Up to this many they are deleted when wholly on the wrong side. */
+/** Components up to this size are deleted if they lie wholly on the wrong side. */
 constexpr int TinySize = 24;
-/** Up to this many they have vanished. */
+/** Components up to this size have vanished. */
 constexpr int VanishedSize = 5;
 
-/** In the place of a label: of what DeleteDegenerate has seen. */
+/** Temporary label of tested vertices. */
 constexpr int Seen = -2;
-/** The labels that LabelSmall gives lie above those of all others. */
+/** Labels of LabelSmall are greater than all others. */
 constexpr int FirstOwnLabel = SurfaceState::Unlabelled + 1;
 
 bool IsVolumePositive(const SurfaceMesh& mesh, const std::vector<int>& vertices)
@@ -42,7 +42,7 @@ bool ComponentWatch::IsSmall(
   bool isSmall = within.Contains(mesh.Position[v]);
   while (isSmall && !this->Pending.empty())
   {
-    // Depth first, which soon leads out of the box.
+    // Depth first, which soon leaves the box.
     const Ring& ring = mesh.Rings[this->Pending.back()];
     this->Pending.pop_back();
     for (int k = 0; k < ring.Count && isSmall; ++k)
@@ -118,7 +118,7 @@ void ComponentWatch::LabelSmall(
 
 bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& small)
 {
-  // Collapses and splits change the vertices of a component without a new label.
+  // Collapses and splits change the vertices of a component but not its label.
   const auto seed = std::find_if(small.Vertices.begin(), small.Vertices.end(),
     [&](int v) { return state.Mesh.IsAlive(v) && state.Component[v] == small.Label; });
   if (seed == small.Vertices.end())
@@ -146,7 +146,7 @@ bool ComponentWatch::FindVertices(SurfaceState& state, const SmallComponent& sma
   return true;
 }
 
-bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
+bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditContext* context)
 {
   bool deleted = false;
   for (SmallComponent& small : this->Watched)
@@ -169,13 +169,12 @@ bool ComponentWatch::DeleteDegenerate(SurfaceState& state, EditShare* share)
       (size <= TinySize &&
         std::all_of(small.Vertices.begin(), small.Vertices.end(), isOnWrongSide)))
     {
-      // The labels of the others stay as they are.
-      if (share)
+      if (context)
       {
         const SurfaceState::RemovedComponent removed =
-          state.TakeComponentAway(small.Vertices.front(), &share->Room);
-        share->EulerCharacteristic -= removed.EulerCharacteristic;
-        ++share->Counts.Removed;
+          state.EraseComponent(small.Vertices.front(), &context->Slots);
+        context->EulerCharacteristic -= removed.EulerCharacteristic;
+        ++context->Counts.Removed;
       }
       else
       {

@@ -12,14 +12,11 @@
 
 namespace volumic
 {
-/**
- * Components that are certain to have more than ComponentWatch::SmallSize vertices, by the labels
- * of SurfaceComponents.
- */
+/** Components that certainly exceed ComponentWatch::SmallSize, by SurfaceComponents' labels. */
 struct LargeComponents
 {
   const std::vector<int>* Sizes = nullptr; ///< Vertices by label at the labelling; null: unknown.
-  int LeastSize = 0;                       ///< Labels with fewer are uncertain.
+  int LeastSize = 0;                       ///< Smaller labels are uncertain.
 
   bool Has(int label) const
   {
@@ -27,8 +24,9 @@ struct LargeComponents
       (*this->Sizes)[static_cast<std::size_t>(label)] >= this->LeastSize;
   }
   /**
-   * Those that stay certain after some edits: one component may have lost all the vertices that a
-   * collapse (one) or a merge (two) removes. A cut may make a small component of any large one.
+   * Return the components that are still large after some edits. In the worst case all vertices
+   * removed by collapses (one each) and merges (two each) belonged to the same component. A cut can
+   * split a small component from any large one.
    */
   LargeComponents After(const EditCounts& edits) const
   {
@@ -38,47 +36,47 @@ struct LargeComponents
 };
 
 /**
- * Watches the small components that a visit sees: those that have shrunk to nothing, that lie
- * wholly on the side where they must vanish, or whose signed volume has changed sign are deleted
- * (Documentation/differences.md, Changes of topology).
+ * Deletes small components that a block pass finds degenerate: components that have shrunk to
+ * nothing, lie wholly on the side where they must vanish, or whose signed volume has changed sign.
+ * See Documentation/differences.md, Changes of topology.
  */
 class ComponentWatch
 {
 public:
-  /** Components up to this many vertices are watched. */
+  /** Maximum number of vertices of a small component. */
   static constexpr int SmallSize = 400;
 
   /**
-   * The small components that have a vertex in a range, and lie in a box, get labels of their own
-   * and are watched; the others are left as they are.
+   * Give labels to the small components that lie in a box and have a vertex in the range [begin,
+   * end), and watch them. Others keep their labels.
    * @param large components that need no test
    */
-  void LabelSmall(SurfaceState& state, int begin, int end, const Box& within,
-    const LargeComponents& large = {});
+  void LabelSmall(
+    SurfaceState& state, int begin, int end, const Box& within, const LargeComponents& large = {});
 
   /**
-   * Deletes those of them that must go.
-   * @param share of the visit, which keeps the books; null: the state does
-   * @return whether anything was deleted.
+   * Delete the degenerate components among those watched.
+   * @param context of the block pass, which counts the deletions; null: the state counts them
+   * @return whether any was deleted
    */
-  bool DeleteDegenerate(SurfaceState& state, EditShare* share = nullptr);
+  bool DeleteDegenerate(SurfaceState& state, EditContext* context = nullptr);
 
 private:
   struct SmallComponent
   {
     int Label = 0;
-    std::vector<int> Vertices; ///< When last seen; empty once it has grown or is deleted.
-    bool IsPositive = true;    ///< Of the volume, when it was labelled.
+    std::vector<int> Vertices; ///< When last found; empty once it has grown or is deleted.
+    bool IsPositive = true;    ///< Sign of the volume when it was labelled.
   };
 
-  /** Whether a component is a small one; if so, its vertices are in Stack. Marks what it sees. */
+  /** Return whether the component of v is small, with its vertices in Stack. Mark tested ones. */
   bool IsSmall(SurfaceState& state, int v, const Box& within, const LargeComponents& large);
-  /** Finds the vertices that the component has now, in Stack. @return false if it has none. */
+  /** Find the present vertices of the component, in Stack. Return false if there are none. */
   bool FindVertices(SurfaceState& state, const SmallComponent& small);
 
   std::vector<SmallComponent> Watched;
   std::vector<int> Stack;
-  std::vector<int> Pending; ///< Those of Stack with neighbours that have not been seen.
+  std::vector<int> Pending; ///< Part of Stack with neighbours that are not tested yet.
   std::vector<int> AllSeen;
 };
 }

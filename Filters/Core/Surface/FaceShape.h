@@ -9,13 +9,13 @@
 
 namespace volumic
 {
-/** Normal of a face, twice its area long. */
+/** Return the normal of a face, with twice its area as length. */
 inline VectorD AreaNormal(const MeshTriangle& t)
 {
   return Cross(t.Corner[1] - t.Corner[0], t.Corner[2] - t.Corner[0]);
 }
 
-/** Height over longest edge: 0 for a sliver, .87 for an equilateral triangle. */
+/** Return height over longest edge: 0 for a sliver, 0.87 for an equilateral triangle. */
 inline double AspectOf(const MeshTriangle& t)
 {
   const double longest = std::max({ SquaredDistance(t.Corner[0], t.Corner[1]),
@@ -23,7 +23,7 @@ inline double AspectOf(const MeshTriangle& t)
   return longest > 0 ? Length(AreaNormal(t)) / longest : 0.;
 }
 
-/** The least aspect of a new face: eq. (1) alone allows slivers, whose normals say nothing. */
+/** Least aspect of a new face: eq. (1) alone allows slivers, whose normals are unreliable. */
 constexpr double LeastAspect = 0.06;
 
 inline bool IsWellShaped(const MeshTriangle& t)
@@ -31,14 +31,14 @@ inline bool IsWellShaped(const MeshTriangle& t)
   return AspectOf(t) > LeastAspect;
 }
 
-/** Whether an edit may make `now` of a face: well-shaped, or what is not gets better. */
+/** Return whether a changed face is well-shaped, or better shaped than before. */
 inline bool KeepsShape(const MeshTriangle& before, const MeshTriangle& now)
 {
   constexpr double better = 1.01;
   return AspectOf(now) >= std::min(LeastAspect, better * AspectOf(before));
 }
 
-/** Whether a face turns less than a cosine allows. A sliver's normal is none, and may turn. */
+/** Return whether a face turns by less than a cosine allows, or is a sliver (no valid normal). */
 inline bool TurnsLittle(const MeshTriangle& before, const MeshTriangle& now, double leastCosine)
 {
   const VectorD normal = AreaNormal(now);

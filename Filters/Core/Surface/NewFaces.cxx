@@ -13,40 +13,39 @@ namespace volumic
 {
 namespace
 {
-/** Room, in delta, on one side of a plane that tells two faces apart without a test of triangles. */
-constexpr float RoomBesidePlane = 0.01f;
+/** Clearance, in delta, on one side of a plane beyond which two faces need no exact test. */
+constexpr float PlaneClearance = 0.01f;
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
-/** Twice the area, in delta squared, from which on a normal in floats is a face's. */
+/** Twice the least area, in delta squared, with a reliable normal in float. */
 constexpr float LeastArea = 1e-2f;
-/** Of the clearance: edges may be a little too long until the end of an iteration. */
-constexpr float ReachShare = 1.1f;
+/** Factor of lambda: edges may exceed their bound until the end of an iteration. */
+constexpr float EdgeTolerance = 1.1f;
 
-/** Times a length that was rounded: not less than it is. */
+/** Factor that makes a rounded length an upper bound. */
 constexpr float AboveRounding = 1.0001f;
 
-/** Vertices that one thread looks at at a time. */
 constexpr std::size_t TestedSpan = 512;
 
-/** A new face, as floats tell most others apart from it: by a box and a plane. */
+/** A new face with a bounding box and a plane in float, which exclude most intersections. */
 struct NewFace
 {
   NewFace(const MeshTriangle& face, float delta)
-    : Corners(face)
-    , Place(face.Corner[0])
-    , Bounds(Box::Of(this->Place, Vector(face.Corner[1]), Vector(face.Corner[2])))
+    : Corners(face), Origin(face.Corner[0]),
+      Bounds(Box::Of(this->Origin, Vector(face.Corner[1]), Vector(face.Corner[2])))
   {
     const Vector normal =
-      Cross(Vector(face.Corner[1]) - this->Place, Vector(face.Corner[2]) - this->Place);
+      Cross(Vector(face.Corner[1]) - this->Origin, Vector(face.Corner[2]) - this->Origin);
     this->Normal = Normalized(normal);
     this->HasNormal = Length(normal) > LeastArea * delta * delta;
   }
 
   /**
-   * Whether another face, less a corner that both have, lies on one side of the plane, with some
-   * room; or, if they have an edge, is far from folded onto this one. They don't intersect then.
+   * Return whether two faces cannot intersect: the corners of the other face that are not shared
+   * lie on one side of the plane with some clearance, or the faces share an edge and are not
+   * folded.
    */
-  bool IsClearOf(const NewFace& other, float room) const
+  bool IsSeparatedFrom(const NewFace& other, float clearance) const
   {
     if (!this->HasNormal || !other.HasNormal)
     {
@@ -64,19 +63,18 @@ struct NewFace
         ++shared;
         continue;
       }
-      const float height = Dot(this->Normal, Vector(other.Corners.Corner[k]) - this->Place);
-      above = above && height > room;
-      below = below && height < -room;
+      const float height = Dot(this->Normal, Vector(other.Corners.Corner[k]) - this->Origin);
+      above = above && height > clearance;
+      below = below && height < -clearance;
     }
-    return shared < 2 ? above || below
-                      : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
+    return shared < 2 ? above || below : shared == 2 && Dot(this->Normal, other.Normal) > Unfolded;
   }
 
   const MeshTriangle& Corners;
-  Vector Place;
+  Vector Origin;
   Box Bounds;
-  Vector Normal; ///< Unit.
-  bool HasNormal; ///< It is no sliver, whose normal in floats says nothing.
+  Vector Normal;  ///< Unit.
+  bool HasNormal; ///< False for slivers.
 };
 
 /** Return the faces of a star, as bits, both of whose neighbours are in a set of bits. */
@@ -85,20 +83,20 @@ unsigned FacesOf(const Ring& ring, unsigned neighbours)
   return neighbours & (neighbours >> 1 | (neighbours & 1u) << (ring.Count - 1));
 }
 
-bool Intersect(
-  const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
+bool Intersect(const SurfaceState& state, const MeshTriangle& one, const MeshTriangle& other)
 {
   return TrianglesIntersect(one, other, state.Sizing.Contact(one.Vertex[0]));
 }
 
 bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& faces)
 {
-  const float room = RoomBesidePlane * state.Sizing.At(faces[0].Corners.Vertex[0]);
+  const float clearance = PlaneClearance * state.Sizing.At(faces[0].Corners.Vertex[0]);
   for (std::size_t i = 0; i < faces.size(); ++i)
   {
     for (std::size_t j = i + 1; j < faces.size(); ++j)
     {
-      if (!faces[i].IsClearOf(faces[j], room) && !faces[j].IsClearOf(faces[i], room) &&
+      if (!faces[i].IsSeparatedFrom(faces[j], clearance) &&
+        !faces[j].IsSeparatedFrom(faces[i], clearance) &&
         Intersect(state, faces[i].Corners, faces[j].Corners))
       {
         return true;
@@ -108,24 +106,24 @@ bool IntersectEachOther(const SurfaceState& state, const std::vector<NewFace>& f
   return false;
 }
 
-/** Whether any of the new faces intersects the face (w, u, v) of the mesh. */
-bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, int w, int u, int v,
-  const Box& bounds)
+/** Return whether any new face intersects the face (w, u, v) of the mesh. */
+bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& newFaces, int w, int u,
+  int v, const Box& bounds)
 {
   const auto isNear = [&](const NewFace& face) { return !bounds.IsApartFrom(face.Bounds); };
-  if (std::none_of(news.begin(), news.end(), isNear))
+  if (std::none_of(newFaces.begin(), newFaces.end(), isNear))
   {
     return false;
   }
   const float delta = state.Sizing.At(w);
-  const float room = RoomBesidePlane * delta;
+  const float clearance = PlaneClearance * delta;
   const MeshTriangle triangle = TriangleOf(state.Mesh, w, u, v);
   const NewFace other(triangle, delta);
-  return std::any_of(news.begin(), news.end(),
+  return std::any_of(newFaces.begin(), newFaces.end(),
     [&](const NewFace& face)
     {
-      return isNear(face) && !face.IsClearOf(other, room) && !other.IsClearOf(face, room) &&
-        Intersect(state, face.Corners, triangle);
+      return isNear(face) && !face.IsSeparatedFrom(other, clearance) &&
+        !other.IsSeparatedFrom(face, clearance) && Intersect(state, face.Corners, triangle);
     });
 }
 }
@@ -133,29 +131,29 @@ bool IntersectFace(const SurfaceState& state, const std::vector<NewFace>& news, 
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed)
 {
-  std::vector<NewFace> news;
-  news.reserve(faces.size());
+  std::vector<NewFace> newFaces;
+  newFaces.reserve(faces.size());
   Box all = { Vector(faces[0].Corner[0]), Vector(faces[0].Corner[0]) };
   for (const MeshTriangle& face : faces)
   {
-    news.emplace_back(face, state.Sizing.At(face.Vertex[0]));
-    all = all.With(news.back().Bounds);
+    newFaces.emplace_back(face, state.Sizing.At(face.Vertex[0]));
+    all = all.With(newFaces.back().Bounds);
   }
-  if (IntersectEachOther(state, news))
+  if (IntersectEachOther(state, newFaces))
   {
     return true;
   }
-  // A face that intersects one of the new ones has a corner this near to the box of those.
-  float reach = 0.f;
+  // An intersecting face has a corner within this distance of the box of the new faces.
+  float radius = 0.f;
   for (const MeshTriangle& face : faces)
   {
     for (const int v : face.Vertex)
     {
-      reach = std::max(
-        reach, state.Sizing.FurtherThan(v, ReachShare * SizingField::LambdaInDelta));
+      radius =
+        std::max(radius, state.Sizing.ScaledRadius(v, EdgeTolerance * SizingField::LambdaInDelta));
     }
   }
-  const Box visited = all.Grown(reach);
+  const Box visited = all.Grown(radius);
   const SurfaceMesh& mesh = state.Mesh;
   const auto isVisited = [&](int w) { return visited.Contains(mesh.Position[w]); };
   bool intersects = false;
@@ -166,7 +164,7 @@ bool NewFacesIntersect(
       {
         return;
       }
-      // A face is tested from the smallest of its corners that are visited.
+      // Test a face at the smallest of its corners that are visited.
       const Ring& ring = mesh.Rings[w];
       unsigned tested = 0;
       for (int i = 0; i < ring.Count; ++i)
@@ -181,46 +179,45 @@ bool NewFacesIntersect(
         const int v = ring.Next(i);
         const Box bounds = Box::Of(mesh.Position[w], mesh.Position[u], mesh.Position[v]);
         intersects = !bounds.IsApartFrom(all) && !removed.Contains({ w, u, v }) &&
-          IntersectFace(state, news, w, u, v, bounds);
+          IntersectFace(state, newFaces, w, u, v, bounds);
       }
     });
   return intersects;
 }
 namespace
 {
-/** Tests the faces whose first corner, by index, is a vertex. */
+/** Tests the faces whose smallest vertex is given. */
 class FacesOfMesh
 {
 public:
-  /** @param longest of all vertices: the longest edge about them */
+  /** @param longest longest edge of each vertex */
   FacesOfMesh(const SurfaceState& state, const LargeVector<float>& longest)
-    : State(state)
-    , Longest(longest)
+    : State(state), Longest(longest)
   {
   }
 
   /**
-   * Whether they intersect each other, or those of a vertex whose edges are shorter (of equals:
-   * before it), or of one not our own.
+   * Return whether the faces of v intersect each other, or those of a vertex w with shorter edges,
+   * or with equal ones and w < v.
    */
   bool Intersect(int v)
   {
     this->Faces.clear();
-    this->News.clear();
-    this->VisitFaces(v,
-      [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
+    this->NewFaces.clear();
+    this->VisitFaces(
+      v, [&](int a, int b) { this->Faces.push_back(TriangleOf(this->State.Mesh, v, a, b)); });
     if (this->Faces.empty())
     {
       return false;
     }
-    const Vector place = this->State.Mesh.Position[v];
-    Box all = { place, place };
+    const Vector position = this->State.Mesh.Position[v];
+    Box all = { position, position };
     for (const MeshTriangle& face : this->Faces)
     {
-      this->News.emplace_back(face, this->State.Sizing.At(v));
-      all = all.With(this->News.back().Bounds);
+      this->NewFaces.emplace_back(face, this->State.Sizing.At(v));
+      all = all.With(this->NewFaces.back().Bounds);
     }
-    if (IntersectEachOther(this->State, this->News))
+    if (IntersectEachOther(this->State, this->NewFaces))
     {
       return true;
     }
@@ -232,8 +229,8 @@ public:
         if (!intersect && w != v && visited.Contains(this->State.Mesh.Position[w]) &&
           this->IsBefore(w, v))
         {
-          this->VisitFaces(w,
-            [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
+          this->VisitFaces(
+            w, [&](int a, int b) { intersect = intersect || this->IntersectFaceOf(w, a, b, all); });
         }
       });
     return intersect;
@@ -263,15 +260,15 @@ private:
 
   bool IntersectFaceOf(int w, int a, int b, const Box& all) const
   {
-    const LargeVector<Vector>& place = this->State.Mesh.Position;
-    const Box bounds = Box::Of(place[w], place[a], place[b]);
-    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->News, w, a, b, bounds);
+    const LargeVector<Vector>& position = this->State.Mesh.Position;
+    const Box bounds = Box::Of(position[w], position[a], position[b]);
+    return !bounds.IsApartFrom(all) && IntersectFace(this->State, this->NewFaces, w, a, b, bounds);
   }
 
   const SurfaceState& State;
   const LargeVector<float>& Longest;
   std::vector<MeshTriangle> Faces;
-  std::vector<NewFace> News;
+  std::vector<NewFace> NewFaces;
 };
 }
 
@@ -288,8 +285,8 @@ std::size_t CountIntersecting(const SurfaceState& state, Executor& executor)
         float squared = 0.f;
         for (int i = 0; i < ring.Count; ++i)
         {
-          squared = std::max(
-            squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
+          squared =
+            std::max(squared, SquaredDistance(mesh.Position[v], mesh.Position[ring.Item[i]]));
         }
         longest[v] = std::sqrt(squared) * AboveRounding;
       }

@@ -13,7 +13,7 @@
 
 namespace volumic
 {
-/** The faces that an edit removes: those with any of some vertices, or those with both of two. */
+/** Faces that an edit removes: those with any of some vertices, or with both of two. */
 struct RemovedFaces
 {
   std::array<int, 6> Vertex;
@@ -33,16 +33,15 @@ struct RemovedFaces
 };
 
 /**
- * Whether any of the new faces of an edit would intersect another of them, or a face of the mesh
- * that the edit does not remove. Nothing is changed.
+ * Return whether any new face of an edit would intersect another new face, or a face of the mesh
+ * that the edit does not remove. The mesh is not changed.
  */
 bool NewFacesIntersect(
   const SurfaceState& state, const std::vector<MeshTriangle>& faces, const RemovedFaces& removed);
 
 /**
- * The same for the faces of the mesh as it is, whatever their normals are. @return the number of
- * vertices that are the first, by index, of a face that intersects another one: 0 if and only if
- * nothing intersects.
+ * Test all faces of the mesh, whatever their normals. Return the number of vertices that are the
+ * smallest one of an intersecting face: 0 if and only if no faces intersect.
  */
 std::size_t CountIntersecting(const SurfaceState& state, Executor& executor);
 }

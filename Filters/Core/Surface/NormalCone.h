@@ -11,27 +11,21 @@
 
 namespace volumic
 {
-/** The smallest cone about a vertex's normal that holds the normals of the faces there. */
+/** Smallest cone about a vertex normal that contains the normals of its faces. */
 struct alignas(16) NormalCone
 {
-  float X = 0; ///< Of the axis: the vertex's normal, of length 1, or 0 where there is none.
+  float X = 0; ///< Axis: the unit vertex normal, or 0 if undefined.
   float Y = 0;
   float Z = 0;
-  float Cosine = 0; ///< Of the angle between the axis and the face's normal farthest from it.
+  float Cosine = 0; ///< Cosine of the largest angle between the axis and a face normal.
 
   NormalCone() = default;
-  NormalCone(const Vector& axis, float cosine)
-    : X(axis.X)
-    , Y(axis.Y)
-    , Z(axis.Z)
-    , Cosine(cosine)
-  {
-  }
+  NormalCone(const Vector& axis, float cosine) : X(axis.X), Y(axis.Y), Z(axis.Z), Cosine(cosine) {}
 
   Vector Axis() const { return Vector(this->X, this->Y, this->Z); }
 };
 
-/** Whether two of the normals in the cones may differ by more than 150 degrees. */
+/** Return whether two normals, one of each cone, may differ by more than 150 degrees. */
 inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
 {
   constexpr float cosine150 = -0.8660254f;
@@ -40,9 +34,9 @@ inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
   const float cw = m.Cosine;
   const float sv = std::sqrt(std::max(0.f, 1 - cv * cv));
   const float sw = std::sqrt(std::max(0.f, 1 - cw * cw));
-  const float cosine = cv * cw - sv * sw; // of the sum of the two cones' angles
+  const float cosine = cv * cw - sv * sw; // Of the sum of both half-angles.
   const float sine = sv * cw + cv * sw;
-  // Opposed if the angle between the axes and both cones add up to over 150 degrees.
+  // Opposed if the angle between the axes plus both half-angles exceeds 150 degrees.
   if (cosine < cosine150 || cv < 0 || cw < 0)
   {
     return true;
@@ -50,7 +44,7 @@ inline bool AreOpposed(const NormalCone& n, const NormalCone& m)
   return n.X * m.X + n.Y * m.Y + n.Z * m.Z < cosine150 * cosine + sine150 * sine;
 }
 
-/** The same of one and four others, a bit each. */
+/** Compare one cone with four others. Return one bit for each. */
 inline unsigned OpposedBits(const NormalCone& n, const NormalCone& a, const NormalCone& b,
   const NormalCone& c, const NormalCone& d)
 {

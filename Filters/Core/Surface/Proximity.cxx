@@ -4,7 +4,7 @@
 
 #include "Core/Common/Spans.h"
 #include "Core/Mesh/TriangleTests.h"
-#include "Core/Surface/ReachOfStar.h"
+#include "Core/Surface/PairSearchRadius.h"
 #include "Core/Surface/StarFaces.h"
 
 #include <algorithm>
@@ -17,113 +17,110 @@ namespace volumic
 namespace
 {
 // Lengths in delta.
-/** Room between two stars that needs no test of their triangles. */
-constexpr float LeastRoom = 2e-3f;
-/** Room that the test of triangles looks for first, to spare some tests to come. */
-constexpr float SomeRoom = 0.01f;
-/** Vertices that one thread examines at a time, as each may take long. */
-constexpr std::size_t ExaminedSpan = 64;
-/** Room along the normals that needs no look for more along the line between the vertices. */
-constexpr float EnoughRoom = 0.02f;
-/** Slack of a vertex with nothing else in reach. */
-constexpr float ReachSlack = 0.1f;
-/** Pairs are kept while their vertices use up their slack: look a little further. */
-constexpr float PairReach = SizingField::LambdaInDelta + ReachSlack;
+/** Clearance of two stars above which their triangles are not tested. */
+constexpr float LeastClearance = 2e-3f;
+/** Clearance that the triangle test requires at first, so that later tests can be skipped. */
+constexpr float TestedClearance = 0.01f;
+constexpr std::size_t TestedSpan = 64;
+/** Clearance along the normals above which the line between the vertices is not tested. */
+constexpr float SufficientClearance = 0.02f;
+/** Clearance of a vertex without others in its search radius. */
+constexpr float ReachClearance = 0.1f;
+/** Search radius of pairs, which are kept until their vertices have used up their clearance. */
+constexpr float PairRadius = SizingField::LambdaInDelta + ReachClearance;
 
 /** Least cosine between two faces at an edge that are certainly not folded onto each other. */
 constexpr float Unfolded = -0.99f;
-/** By what a squared reach is less, so that rounding can't make each of two pairs leave a test to
-    the other. */
-constexpr float RoundedReach = 0.999f;
-/** By what a room in floats must be more than the same in doubles. */
+/** Margin of a squared search radius: one of two pairs must not leave a test to the other. */
+constexpr float RadiusRounding = 0.999f;
+/** Margin for rounding of a clearance in float instead of double. */
 constexpr float FloatRounding = 1.2f;
 
-/** Room between two stars along a unit direction, the first below; negative: none. */
-float RoomAlong(const StarRim& first, const StarRim& second, const Vector& direction)
+/** Return the clearance along a unit direction, the first star below; negative: overlap. */
+float ClearanceAlong(const StarLink& first, const StarLink& second, const Vector& direction)
 {
   const VectorLanes along = AllLanes(direction);
-  Lanes highest(Dot(direction, first.Place));
+  Lanes highest(Dot(direction, first.Position));
   for (int i = 0; i < first.Count; i += Lanes::Count)
   {
-    highest = Maximum(highest, Dot(along, first.Rim.At(i)));
+    highest = Maximum(highest, Dot(along, first.Link.At(i)));
   }
-  Lanes lowest(Dot(direction, second.Place));
+  Lanes lowest(Dot(direction, second.Position));
   for (int i = 0; i < second.Count; i += Lanes::Count)
   {
-    lowest = Minimum(lowest, Dot(along, second.Rim.At(i)));
+    lowest = Minimum(lowest, Dot(along, second.Link.At(i)));
   }
   return LeastOf(lowest) - GreatestOf(highest);
 }
 
-/** The larger room along two directions. The stars must not have a common vertex. */
-float RoomBetween(const SurfaceState& state, const StarRim& first, const StarRim& second)
+/** Return the larger clearance along two directions. The stars must not have a common vertex. */
+float ClearanceBetween(const SurfaceState& state, const StarLink& first, const StarLink& second)
 {
-  const Vector across = second.Place - first.Place;
+  const Vector across = second.Position - first.Position;
   Vector direction = state.Normal[first.Centre].Axis() - state.Normal[second.Centre].Axis();
   if (Dot(direction, across) < 0)
   {
     direction = -direction;
   }
-  const float room = RoomAlong(first, second, Normalized(direction));
-  return room > EnoughRoom * state.Sizing.At(first.Centre)
-    ? room
-    : std::max(room, RoomAlong(first, second, Normalized(across)));
+  const float clearance = ClearanceAlong(first, second, Normalized(direction));
+  return clearance > SufficientClearance * state.Sizing.At(first.Centre)
+    ? clearance
+    : std::max(clearance, ClearanceAlong(first, second, Normalized(across)));
 }
 
-/** Where the vertices of one star lie, seen from the faces of another, as bits of its faces. */
-class FacesBeside
+/** Separates the faces of one star from those of another by their planes, as bits. */
+class SeparatedFaces
 {
 public:
-  /** @param from the star whose planes tell @param other the one whose faces are told apart */
-  FacesBeside(const StarFaces& from, const StarFaces& other, float room)
-    : From(from)
-    , Other(other)
-    , Room(room)
-    , WithCentre(other.Matching(from.Centre))
+  /**
+   * @param from star with the planes
+   * @param other star whose faces are tested
+   */
+  SeparatedFaces(const StarFaces& from, const StarFaces& other, float clearance)
+    : From(from), Other(other), Clearance(clearance), Centres(other.Matching(from.Centre))
   {
     for (int i = 0; i < from.Count; ++i)
     {
-      this->With[i] = other.Matching(from.Item[i]);
+      this->Neighbours[i] = other.Matching(from.Item[i]);
     }
   }
 
   /**
-   * The faces of the other star which, less a corner that they share with face i, lie on one side
-   * of its plane, by more than the room; or, if they share an edge with it, are far from folded
-   * onto it. They do not intersect it.
+   * Return the faces of the other star that cannot intersect face i. Apart from a shared corner
+   * they lie on one side of its plane with the clearance, or they share an edge and are not folded.
    */
   unsigned Of(int i) const
   {
     const int after = this->From.After(i);
     const Vector normal = this->From.Normal[i];
-    const unsigned shared = this->WithCentre | this->With[i] | this->With[after];
+    const unsigned shared = this->Centres | this->Neighbours[i] | this->Neighbours[after];
     const int centre = this->Other.Centre;
     const bool hasCentre = centre == this->From.Centre || centre == this->From.Item[i] ||
       centre == this->From.Item[after];
-    const float height = Dot(normal, this->Other.Place - this->From.Place);
+    const float height = Dot(normal, this->Other.Position - this->From.Position);
     unsigned above = shared;
     unsigned below = shared;
     const VectorLanes normals = AllLanes(normal);
-    const VectorLanes place = AllLanes(this->From.Place);
+    const VectorLanes position = AllLanes(this->From.Position);
     for (int k = 0; k < this->Other.Count; k += Lanes::Count)
     {
-      const Lanes heights = Dot(normals, this->Other.Rim.At(k) - place);
-      above |= LessBits(Lanes(this->Room), heights) << k;
-      below |= LessBits(heights, Lanes(-this->Room)) << k;
+      const Lanes heights = Dot(normals, this->Other.Link.At(k) - position);
+      above |= LessBits(Lanes(this->Clearance), heights) << k;
+      below |= LessBits(heights, Lanes(-this->Clearance)) << k;
     }
-    unsigned beside = 0;
-    beside |= hasCentre || height > this->Room ? this->OfBothEnds(above) : 0;
-    beside |= hasCentre || height < -this->Room ? this->OfBothEnds(below) : 0;
-    // Those that share an edge, or all corners.
+    unsigned separated = 0;
+    separated |= hasCentre || height > this->Clearance ? this->OfBothEnds(above) : 0;
+    separated |= hasCentre || height < -this->Clearance ? this->OfBothEnds(below) : 0;
+    // Faces that share an edge, or all corners.
     unsigned edges = this->OfBothEnds(shared);
     edges |= hasCentre ? shared | this->Other.Following(shared) : 0;
-    beside &= ~edges;
+    separated &= ~edges;
     for (; edges != 0; edges &= edges - 1)
     {
       const int j = LowestBit(edges);
-      beside |= Dot(normal, this->Other.Normal[j]) > Unfolded ? 1u << j : 0;
+      separated |= Dot(normal, this->Other.Normal[j]) > Unfolded ? 1u << j : 0;
     }
-    return beside;
+    return separated;
   }
 
 private:
@@ -135,12 +132,12 @@ private:
 
   const StarFaces& From;
   const StarFaces& Other;
-  float Room;
-  unsigned WithCentre;           ///< Neighbours in the other star that are the centre of this one.
-  unsigned With[Ring::Capacity]; ///< The same for the neighbours of this one.
+  float Clearance;
+  unsigned Centres;                    ///< Neighbours in Other that are the centre of From.
+  unsigned Neighbours[Ring::Capacity]; ///< The same for the neighbours of From.
 };
 
-/** The faces of a star whose boxes come as near to that of face i of another as a margin. */
+/** Return the faces of a star whose boxes are within a margin of that of face i of another. */
 unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float margin)
 {
   const VectorLanes by(margin, margin, margin);
@@ -151,9 +148,9 @@ unsigned FacesNear(const StarFaces& from, int i, const StarFaces& other, float m
   {
     const VectorLanes otherLow = other.Low.At(k);
     const VectorLanes otherHigh = other.High.At(k);
-    apart |= (LessBits(otherHigh.X, low.X) | LessBits(high.X, otherLow.X) |
-               LessBits(otherHigh.Y, low.Y) | LessBits(high.Y, otherLow.Y) |
-               LessBits(otherHigh.Z, low.Z) | LessBits(high.Z, otherLow.Z))
+    apart |=
+      (LessBits(otherHigh.X, low.X) | LessBits(high.X, otherLow.X) | LessBits(otherHigh.Y, low.Y) |
+        LessBits(high.Y, otherLow.Y) | LessBits(otherHigh.Z, low.Z) | LessBits(high.Z, otherLow.Z))
       << k;
   }
   return ~apart & other.All();
@@ -165,27 +162,22 @@ bool SameFace(const std::array<int, 3>& f, const std::array<int, 3>& g)
   return has(f[0]) && has(f[1]) && has(f[2]);
 }
 
-/**
- * Two faces are found from up to nine pairs of their corners. Only the first pair, in order of
- * index, that an examination would look at counts.
- */
+/** Selects, of up to nine pairs of corners that find two faces, the first tested one. */
 class FirstPair
 {
 public:
   FirstPair(const SurfaceState& state, int v, int w)
-    : State(state)
-    , V(std::min(v, w))
-    , W(std::max(v, w))
+    : State(state), V(std::min(v, w)), W(std::max(v, w))
   {
   }
 
   bool IsFirstOf(const std::array<int, 3>& f, const std::array<int, 3>& g) const
   {
-    // No more than what the stars of any pair ask for, which are not all to be read here.
-    float most = 0.f;
+    // Upper bound of the radii, so that the stars of these pairs need not be read.
+    float largest = 0.f;
     for (const int corner : { f[0], f[1], f[2], g[0], g[1], g[2] })
     {
-      most = std::max(most, SizingField::ReachInDelta * this->State.Sizing.At(corner));
+      largest = std::max(largest, SizingField::SearchRadiusInDelta * this->State.Sizing.At(corner));
     }
     for (int a : f)
     {
@@ -194,8 +186,8 @@ public:
         const int x = std::min(a, b);
         const int y = std::max(a, b);
         if ((x < this->V || (x == this->V && y < this->W)) &&
-          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) && this->IsWithinReach(x, y, most) &&
-          this->State.AreOpposed(x, y))
+          ((this->State.Marks[x] | this->State.Marks[y]) & IsListed) &&
+          this->IsWithinRadius(x, y, largest) && this->State.AreOpposed(x, y))
         {
           return false;
         }
@@ -205,12 +197,12 @@ public:
   }
 
 private:
-  bool IsWithinReach(int x, int y, float most) const
+  bool IsWithinRadius(int x, int y, float largest) const
   {
-    const float reach =
-      std::min({ most, this->State.Sizing.Reach(x), this->State.Sizing.Reach(y) });
+    const float radius =
+      std::min({ largest, this->State.Sizing.SearchRadius(x), this->State.Sizing.SearchRadius(y) });
     return SquaredDistance(this->State.Mesh.Position[x], this->State.Mesh.Position[y]) <=
-      RoundedReach * reach * reach;
+      RadiusRounding * radius * radius;
   }
 
   const SurfaceState& State;
@@ -218,32 +210,32 @@ private:
   int W;
 };
 
-/** Adds the faces that intersect. @return the room that the rest has for certain. */
+/** Append intersecting faces. Return the certain clearance of the others. */
 float TestStars(const SurfaceState& state, const StarFaces& first, const StarFaces& second,
   Proximity::Findings& found)
 {
   const int v = first.Centre;
   const FirstPair pair(state, v, second.Centre);
-  const float someRoom = SomeRoom * state.Sizing.At(v);
-  const FacesBeside besideFirst(first, second, FloatRounding * someRoom);
-  const FacesBeside besideSecond(second, first, FloatRounding * someRoom);
-  std::array<unsigned, Ring::Capacity> firstBeside;
-  unsigned known = 0; // The faces of the second star for which it has been computed.
-  float room = someRoom;
+  const float testedClearance = TestedClearance * state.Sizing.At(v);
+  const SeparatedFaces separatedFromFirst(first, second, FloatRounding * testedClearance);
+  const SeparatedFaces separatedFromSecond(second, first, FloatRounding * testedClearance);
+  std::array<unsigned, Ring::Capacity> firstSeparated;
+  unsigned known = 0; // Faces of the second star with computed bits.
+  float clearance = testedClearance;
   for (int i = 0; i < first.Count; ++i)
   {
-    unsigned near = FacesNear(first, i, second, room);
-    near &= v == second.Centre ? ~0u << i << 1 : ~0u; // Its own pairs once.
-    near = near != 0 ? near & ~besideFirst.Of(i) : 0;
+    unsigned near = FacesNear(first, i, second, clearance);
+    near &= v == second.Centre ? ~0u << i << 1 : ~0u; // Each pair of a star with itself once.
+    near = near != 0 ? near & ~separatedFromFirst.Of(i) : 0;
     for (; near != 0; near &= near - 1)
     {
       const int j = LowestBit(near);
       if (!(known >> j & 1))
       {
         known |= 1u << j;
-        firstBeside[j] = besideSecond.Of(j);
+        firstSeparated[j] = separatedFromSecond.Of(j);
       }
-      if (firstBeside[j] >> i & 1)
+      if (firstSeparated[j] >> i & 1)
       {
         continue;
       }
@@ -255,12 +247,12 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       }
       const MeshTriangle one = TriangleOf(state.Mesh, f[0], f[1], f[2]);
       const MeshTriangle other = TriangleOf(state.Mesh, g[0], g[1], g[2]);
-      // Only the first pair reports the intersection; see Tight.
-      if (TrianglesIntersect(one, other, someRoom) && pair.IsFirstOf(f, g))
+      // Only the first pair reports the intersection.
+      if (TrianglesIntersect(one, other, testedClearance) && pair.IsFirstOf(f, g))
       {
-        room = 0;
-        found.Tight.insert(found.Tight.end(), f.begin(), f.end());
-        found.Tight.insert(found.Tight.end(), g.begin(), g.end());
+        clearance = 0;
+        found.Touching.insert(found.Touching.end(), f.begin(), f.end());
+        found.Touching.insert(found.Touching.end(), g.begin(), g.end());
         if (TrianglesIntersect(one, other, state.Sizing.Contact(v)))
         {
           found.Intersections.push_back({ f, g });
@@ -268,48 +260,45 @@ float TestStars(const SurfaceState& state, const StarFaces& first, const StarFac
       }
     }
   }
-  return room;
+  return clearance;
 }
 
-/** Examines vertices; what it keeps meanwhile is a thread's own. */
+/** Tests vertices, with the buffers of one thread. */
 class Search
 {
 public:
-  Search(SurfaceState& state)
-    : State(state)
-  {
-  }
+  Search(SurfaceState& state) : State(state) {}
 
-  /** Calls visit(w, squared distance) for those within a radius whose cone of normals is opposed. */
+  /** Call visit(w, squared distance) for vertices within a radius and with an opposed cone. */
   template <typename Visitor>
   void VisitOpposed(int v, float radius, const Visitor& visit);
-  /** Sets NearOthers and Slack of a vertex, but for faces without room: see Findings::Tight. */
-  void Examine(int v, Proximity::Findings& found);
+  /** Set NearOthers and ClearanceAtTest of a vertex, except for Findings::Touching. */
+  void Test(int v, Proximity::Findings& found);
 
 private:
   /** Fill Near with the vertices within a radius of a position. Return their number. */
-  std::size_t FindNear(const Vector& place, float radius);
+  std::size_t FindNear(const Vector& position, float radius);
 
   /** Capacity for one more group of visited vertices, rounded up to whole lanes. */
-  static constexpr std::size_t GroupRoom = VertexGrid::LargestGroup + Lanes::Count;
+  static constexpr std::size_t GroupCapacity = VertexGrid::LargestGroup + Lanes::Count;
 
   SurfaceState& State;
-  std::vector<int> Near = std::vector<int>(GroupRoom);
-  std::vector<float> Squared = std::vector<float>(GroupRoom); ///< Their distances, squared.
-  /** The star of the examined vertex, built on first use: most vertices do not need it. */
+  std::vector<int> Near = std::vector<int>(GroupCapacity);
+  std::vector<float> Squared = std::vector<float>(GroupCapacity); ///< Squared distances.
+  /** Star of the tested vertex, built on first use: most vertices do not need it. */
   std::vector<StarFaces> Own;
 };
 
-std::size_t Search::FindNear(const Vector& place, float radius)
+std::size_t Search::FindNear(const Vector& position, float radius)
 {
   std::size_t visited = 0;
   const Vector margin(radius, radius, radius);
-  this->State.Grid.VisitGroups(place - margin, place + margin,
+  this->State.Grid.VisitGroups(position - margin, position + margin,
     [&](const int* group, int count)
     {
-      if (this->Near.size() < visited + GroupRoom)
+      if (this->Near.size() < visited + GroupCapacity)
       {
-        this->Near.resize(2 * visited + GroupRoom);
+        this->Near.resize(2 * visited + GroupCapacity);
         this->Squared.resize(this->Near.size());
       }
       for (int i = 0; i < count; i += Lanes::Count)
@@ -321,20 +310,21 @@ std::size_t Search::FindNear(const Vector& place, float radius)
   int* const near = this->Near.data();
   float* const squared = this->Squared.data();
   std::fill_n(near + visited, Lanes::Count, near[0]);
-  const Vector* const places = this->State.Mesh.Position.data();
-  const VectorLanes from = AllLanes(place);
-  const Lanes most(radius * radius);
+  const Vector* const positions = this->State.Mesh.Position.data();
+  const VectorLanes from = AllLanes(position);
+  const Lanes largest(radius * radius);
   std::size_t count = 0;
   for (std::size_t i = 0; i < visited; i += Lanes::Count)
   {
     const int four[Lanes::Count] = { near[i], near[i + 1], near[i + 2], near[i + 3] };
     float distance[Lanes::Count];
     const Lanes lanes = SquaredLength(
-      Gather(places[four[0]], places[four[1]], places[four[2]], places[four[3]]) - from);
+      Gather(positions[four[0]], positions[four[1]], positions[four[2]], positions[four[3]]) -
+      from);
     lanes.Store(distance);
     const unsigned beyond =
-      LessBits(most, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
-    for (int k = 0; k < Lanes::Count; ++k) // Without branches: vertices beyond are overwritten.
+      LessBits(largest, lanes) | ~0u << std::min<std::size_t>(visited - i, Lanes::Count);
+    for (int k = 0; k < Lanes::Count; ++k) // Branchless: vertices beyond are overwritten.
     {
       near[count] = four[k];
       squared[count] = distance[k];
@@ -354,8 +344,7 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   for (std::size_t i = 0; i < count; i += Lanes::Count)
   {
     const int* w = near + i; // Valid indices follow after the last one.
-    unsigned opposed =
-      OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
+    unsigned opposed = OpposedBits(cone, cones[w[0]], cones[w[1]], cones[w[2]], cones[w[3]]);
     opposed &= ~(~0u << std::min<std::size_t>(count - i, Lanes::Count));
     for (; opposed != 0; opposed &= opposed - 1)
     {
@@ -368,16 +357,17 @@ void Search::VisitOpposed(int v, float radius, const Visitor& visit)
   }
 }
 
-void Search::Examine(int v, Proximity::Findings& found)
+void Search::Test(int v, Proximity::Findings& found)
 {
   SurfaceState& state = this->State;
   const SurfaceMesh& mesh = state.Mesh;
   const float delta = state.Sizing.At(v);
-  const float most = state.Sizing.Reach(v);
-  const ReachOfStar reaches(state, v);
-  const float further = most + (state.IsSlow[v] ? Proximity::FurtherReachInDelta * delta : 0.f);
-  const float near = PairReach * delta;
-  const float least = ReachSlack * delta;
+  const float largest = state.Sizing.SearchRadius(v);
+  const PairSearchRadius pairRadius(state, v);
+  const float extended =
+    largest + (state.IsSlow[v] ? Proximity::ExtraSearchRadiusInDelta * delta : 0.f);
+  const float near = PairRadius * delta;
+  const float least = ReachClearance * delta;
   this->Own.clear();
   const auto star = [&]() -> const StarFaces&
   {
@@ -388,46 +378,47 @@ void Search::Examine(int v, Proximity::Findings& found)
     return this->Own.front();
   };
   bool anything = false;
-  float slack = further - most + least;
+  float clearanceOfStar = extended - largest + least;
   if (state.AreOpposed(v, v))
   {
     anything = true;
-    slack = std::min(slack, TestStars(state, star(), star(), found));
+    clearanceOfStar = std::min(clearanceOfStar, TestStars(state, star(), star(), found));
   }
-  this->VisitOpposed(v, further,
+  this->VisitOpposed(v, extended,
     [&](int w, float squared)
     {
-      const float reach = reaches.With(w, squared);
-      if (squared > reach * reach)
+      const float radius = pairRadius.With(w, squared);
+      if (squared > radius * radius)
       {
-        slack = std::min(slack, std::sqrt(squared) - reach + least);
+        clearanceOfStar = std::min(clearanceOfStar, std::sqrt(squared) - radius + least);
         return;
       }
-      slack = std::min(
-        slack, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
+      clearanceOfStar = std::min(
+        clearanceOfStar, std::max(least, std::sqrt(squared) - state.Sizing.Clearance(v, w)));
       anything = true;
       if (squared < near * near && !mesh.AreNeighbours(v, w))
       {
         found.Pairs.push_back({ v, w, squared });
       }
       const StarFaces& first = star();
-      const bool share = first.Shares(w, mesh.Rings[w]);
+      const bool isShared = first.Shares(w, mesh.Rings[w]);
       const bool tests = v < w || !(state.Marks[w] & IsListed) ||
-        squared > state.Sizing.Reach(w) * state.Sizing.Reach(w); // Which does not look as far.
-      if (share && !tests)
+        squared >
+          state.Sizing.SearchRadius(w) * state.Sizing.SearchRadius(w); // Its own radius is smaller.
+      if (isShared && !tests)
       {
-        slack = std::min(slack, SomeRoom * delta);
+        clearanceOfStar = std::min(clearanceOfStar, TestedClearance * delta);
         return;
       }
       const StarFaces second(mesh, w);
-      const float room = share ? 0.f : RoomBetween(state, first, second);
-      slack = std::min(slack,
-        room >= LeastRoom * delta ? room
-          : tests                 ? TestStars(state, first, second, found)
-                                  : SomeRoom * delta);
+      const float clearance = isShared ? 0.f : ClearanceBetween(state, first, second);
+      clearanceOfStar = std::min(clearanceOfStar,
+        clearance >= LeastClearance * delta ? clearance
+          : tests                           ? TestStars(state, first, second, found)
+                                            : TestedClearance * delta);
     });
   state.NearOthers[v] = anything;
-  state.Slack[v] = slack;
+  state.ClearanceAtTest[v] = clearanceOfStar;
 }
 }
 
@@ -436,7 +427,7 @@ void Proximity::AddPairs(SurfaceState& state, const std::vector<int>& vertices)
   Search search(state);
   for (const int v : vertices)
   {
-    search.VisitOpposed(v, PairReach * state.Sizing.At(v),
+    search.VisitOpposed(v, PairRadius * state.Sizing.At(v),
       [&](int w, float squared)
       {
         if (!state.Mesh.AreNeighbours(v, w))
@@ -447,22 +438,21 @@ void Proximity::AddPairs(SurfaceState& state, const std::vector<int>& vertices)
   }
 }
 
-void Proximity::Examine(
-  SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
+void Proximity::Test(SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   for (const int v : vertices)
   {
     state.Marks[v] |= IsListed;
   }
-  // Pairs of vertices that are not examined anew stay.
+  // Keep the pairs of vertices that are not tested.
   this->AllPairs.erase(std::remove_if(this->AllPairs.begin(), this->AllPairs.end(),
                          [&state](const ClosePair& pair)
                          {
-                           return (state.Marks[pair.V] & IsListed) ||
-                             !state.Mesh.IsAlive(pair.V) || !state.Mesh.IsAlive(pair.W);
+                           return (state.Marks[pair.V] & IsListed) || !state.Mesh.IsAlive(pair.V) ||
+                             !state.Mesh.IsAlive(pair.W);
                          }),
     this->AllPairs.end());
-  const std::size_t spans = (vertices.size() + ExaminedSpan - 1) / ExaminedSpan;
+  const std::size_t spans = (vertices.size() + TestedSpan - 1) / TestedSpan;
   this->OfSpans.resize(std::max(this->OfSpans.size(), spans));
   executor.For(spans, 1,
     [&](std::size_t begin, std::size_t end)
@@ -473,13 +463,13 @@ void Proximity::Examine(
         Proximity::Findings& found = this->OfSpans[span];
         found.Pairs.clear();
         found.Intersections.clear();
-        found.Tight.clear();
-        const std::size_t last = std::min(vertices.size(), (span + 1) * ExaminedSpan);
-        for (std::size_t i = span * ExaminedSpan; i < last; ++i)
+        found.Touching.clear();
+        const std::size_t last = std::min(vertices.size(), (span + 1) * TestedSpan);
+        for (std::size_t i = span * TestedSpan; i < last; ++i)
         {
           if (state.Mesh.IsAlive(vertices[i]))
           {
-            search.Examine(vertices[i], found);
+            search.Test(vertices[i], found);
           }
         }
       }
@@ -491,10 +481,10 @@ void Proximity::Examine(
     this->AllPairs.insert(this->AllPairs.end(), found.Pairs.begin(), found.Pairs.end());
     this->AllIntersections.insert(
       this->AllIntersections.end(), found.Intersections.begin(), found.Intersections.end());
-    // A pair of faces is tested once, but all its corners must know that it has no room.
-    for (const int v : found.Tight)
+    // Each pair of faces is tested once. Clear the clearance of all its corners.
+    for (const int v : found.Touching)
     {
-      state.Slack[v] = 0;
+      state.ClearanceAtTest[v] = 0;
     }
   }
   for (const int v : vertices)
@@ -507,7 +497,7 @@ std::vector<Proximity::FacePair> Proximity::FindIntersections(
   SurfaceState& state, const std::vector<int>& vertices, Executor& executor)
 {
   Proximity all;
-  all.Examine(state, vertices, executor);
+  all.Test(state, vertices, executor);
   return std::move(all.AllIntersections);
 }
 }

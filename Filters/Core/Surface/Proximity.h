@@ -11,69 +11,67 @@
 namespace volumic
 {
 /**
- * What lies near what: finds the close pairs of vertices that contacts and merges work on, marks
- * the vertices that are near others, and tests the faces about all of them for intersections, all
- * in one search.
+ * Finds close pairs of vertices for contacts and merges, marks vertices near others, and tests the
+ * faces at these vertices for intersections, all in one search.
  *
- * Vertices near along a smooth surface are near in space too. They are told apart by the normals:
- * a pair counts only if the cones of the face normals about the two are opposed, since the faces
- * that touch first in a collision are (SurfaceState::AreOpposed). Positions, normals and grid must
- * be up to date, and no edge longer than eq. (1) allows: faces that intersect then have corners
- * within SizingField::Reach.
+ * Vertices that are near along a smooth surface are also near in space. Normals distinguish them: a
+ * pair counts only if the cones of its face normals are opposed (SurfaceState::AreOpposed), as
+ * those of the faces that touch first in a collision are. Positions, normals and grid must be up to
+ * date. No edge may be longer than eq. (1) allows: intersecting faces then have corners within
+ * SizingField::SearchRadius.
  */
 class Proximity
 {
 public:
-  /** By what a slow vertex looks further than its reach, and needs no new look for longer. */
-  static constexpr float FurtherReachInDelta = 0.25f;
+  /** Additional search radius of a slow vertex, which then needs a test less often. */
+  static constexpr float ExtraSearchRadiusInDelta = 0.25f;
 
   struct ClosePair
   {
     int V;
     int W;
-    float Squared; ///< Distance, squared.
+    float Squared; ///< Squared distance.
   };
   struct FacePair
   {
     std::array<int, 3> First;
     std::array<int, 3> Second;
   };
-  /** What is found of some vertices that follow each other in the list. */
+  /** Results for a span of the list. */
   struct Findings
   {
     std::vector<ClosePair> Pairs;
     std::vector<FacePair> Intersections;
-    std::vector<int> Tight; ///< Corners of faces that have no room left.
+    std::vector<int> Touching; ///< Corners of faces with no clearance.
   };
 
   /**
-   * Fills Pairs, Intersections, and NearOthers and Slack of the vertices in the list. Slack is the
-   * room that their stars have: two stars can't intersect while neither has moved by half of it.
-   * Threads share the list; what is found does not depend on them.
+   * Compute Pairs, Intersections, and NearOthers and ClearanceAtTest of the listed vertices. Two
+   * stars cannot intersect before one of them has moved by half of its clearance. The list is
+   * processed in parallel; the result does not depend on the executor.
    */
-  void Examine(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
+  void Test(SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
   /**
-   * Opposed pairs nearer than about lambda delta, grouped by V; a pair of two listed occurs twice.
-   * Those of vertices that were not in the last list are kept from when they were.
+   * Return opposed pairs nearer than about lambda delta, grouped by V. A pair of two listed
+   * vertices occurs twice. Pairs of vertices not in the last list are kept from earlier tests.
    */
   const std::vector<ClosePair>& Pairs() const { return this->AllPairs; }
-  /** Finds the pairs alone, of vertices whose stars need no new look. */
+  /** Find the pairs only, of vertices whose stars need no test. */
   void AddPairs(SurfaceState& state, const std::vector<int>& vertices);
-  /** Forgets the pairs. */
   void Clear() { this->AllPairs.clear(); }
 
-  /** Pairs of faces that intersect. */
+  /** Return pairs of intersecting faces. */
   const std::vector<FacePair>& Intersections() const { return this->AllIntersections; }
 
-  /** Those about the vertices of a list alone. */
+  /** Find intersecting faces at the vertices of a list. */
   static std::vector<FacePair> FindIntersections(
     SurfaceState& state, const std::vector<int>& vertices, Executor& executor);
 
 private:
   std::vector<ClosePair> AllPairs;
   std::vector<FacePair> AllIntersections;
-  std::vector<Findings> OfSpans; ///< Of the last list; kept for their memory.
+  std::vector<Findings> OfSpans; ///< Kept between calls to reuse memory.
 };
 }
 

@@ -12,14 +12,14 @@ namespace volumic
 {
 namespace
 {
-/** Distances a rounding under the bound don't count. */
+/** Relative tolerance of the distance bound. */
 constexpr double Rounding = 1e-6;
-/** Distance, in lambda delta, within which another part of the surface may hold a vertex. */
-constexpr float HoldingReach = 1.15f;
-/** Distance to the isopotential, in delta, that counts as held. */
+/** Distance, in lambda delta, within which another part of the surface may constrain a vertex. */
+constexpr float ContactRadius = 1.15f;
+/** Distance to the isosurface, in delta, from which on a vertex is constrained. */
 constexpr float FarFromIso = 0.1f;
 
-/** Lambda delta, in doubles and a rounding less. */
+/** Return lambda delta less the tolerance. */
 double BoundOf(const SizingField& sizing, int v)
 {
   return static_cast<double>(SizingField::LambdaInDelta) * sizing.At(v) * (1. - Rounding);
@@ -34,7 +34,7 @@ RemainingContacts FindRemainingContacts(
   const std::size_t n = mesh.Rings.size();
   std::vector<std::vector<std::array<int, 2>>> spans((n + size - 1) / size);
   RemainingContacts contacts;
-  MakeZeroed(contacts.Held, n); // Where there is no vertex it takes no memory.
+  MakeZeroed(contacts.Held, n); // Free slots take no memory.
   ForSpans(executor, n, size,
     [&](std::size_t b, std::size_t begin, std::size_t end)
     {
@@ -47,21 +47,20 @@ RemainingContacts FindRemainingContacts(
         }
         const VectorD p(mesh.Position[v]);
         const double bound = BoundOf(state.Sizing, v);
-        const float reach = state.Sizing.LargestClearance(v, HoldingReach);
+        const float radius = state.Sizing.LargestClearance(v, ContactRadius);
         bool hasOther = false;
-        state.Grid.Visit(mesh.Position[v], reach,
+        state.Grid.Visit(mesh.Position[v], radius,
           [&](int w)
           {
             const VectorD across = VectorD(mesh.Position[w]) - p;
             const double squared = Dot(across, across);
             const bool isForbidden = squared < bound * bound;
-            // What holds a vertex faces it.
-            const bool mayHold = !hasOther && squared < static_cast<double>(reach) * reach &&
+            // Only vertices that face it constrain a vertex.
+            const bool mayConstrain = !hasOther && squared < static_cast<double>(radius) * radius &&
               Dot(state.Normal[v].Axis(), state.Normal[w].Axis()) < 0;
-            if (w != v && ((isForbidden && w > v) || mayHold) &&
-              mesh.AreFarApart(v, w))
+            if (w != v && ((isForbidden && w > v) || mayConstrain) && mesh.AreFarApart(v, w))
             {
-              hasOther = hasOther || mayHold;
+              hasOther = hasOther || mayConstrain;
               if (isForbidden && w > v)
               {
                 spans[b].push_back({ v, w });
@@ -71,13 +70,13 @@ RemainingContacts FindRemainingContacts(
         if (hasOther)
         {
           const Field::Sample sample = field.At(mesh.Position[v]);
-          contacts.Held[i] = std::abs(sample.Value) >
-            FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
+          contacts.Held[i] =
+            std::abs(sample.Value) > FarFromIso * state.Sizing.At(v) * field.SlopeOf(sample);
         }
       }
       std::sort(spans[b].begin(), spans[b].end());
     });
-  Concatenate(executor, spans, contacts.Pairs); // Sorted, as spans are.
+  Concatenate(executor, spans, contacts.Pairs); // Sorted, as the spans are.
   return contacts;
 }
 }

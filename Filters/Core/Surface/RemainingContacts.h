@@ -14,27 +14,27 @@
 namespace volumic
 {
 /**
- * The places where the object, or a gap in it, is thinner than the mesh can hold, and the image
- * does not want it cut or merged.
+ * Regions where the object, or a gap in it, is thinner than the mesh can represent, and where the
+ * image requires neither a cut nor a merge.
  */
 struct RemainingContacts
 {
   /**
-   * The pairs that eq. (1) forbids and that are there nevertheless: nearer than lambda delta
-   * (2.5/sqrt 3 delta) though not near along the surface, that is, at least four edges apart or on
-   * different components (Documentation/differences.md, Constraints: what is nearer along the
-   * surface is only bent). Mesh indices (v, w), v < w, sorted.
+   * Pairs that violate the clearance of eq. (1): nearer than lambda delta (2.5/sqrt 3 delta), but
+   * at least four edges apart or on different components. See Documentation/differences.md,
+   * Constraints. Mesh indices (v, w), v < w, sorted.
    */
   LargeVector<std::array<int, 2>> Pairs;
   /**
-   * Per vertex, 1 where eq. (1) holds it off its place: a vertex of the opposite normal is less
-   * than 1.15 lambda delta away, and the isopotential is more than 0.1 delta away.
+   * Per vertex: 1 if eq. (1) keeps it away from the isosurface. A vertex of opposite normal is then
+   * less than 1.15 lambda delta away, and the isosurface more than 0.1 delta.
    */
   LargeVector<std::uint8_t> Held;
 };
 
 /**
- * The grid of the state must be up to date. The same for any executor. Cost: O(vertices).
+ * Find the remaining contacts in O(vertices). The grid of the state must be up to date. The result
+ * does not depend on the executor.
  */
 RemainingContacts FindRemainingContacts(
   const SurfaceState& state, const Field& field, Executor& executor);

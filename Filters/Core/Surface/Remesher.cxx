@@ -12,13 +12,13 @@ namespace volumic
 {
 namespace
 {
-/** Splits that may have to come before one, see SplitEdge. */
+/** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** How near an edge's middle may be to what lies opposite, in delta; see MakesNeedles. */
+/** Least distance, in delta, from the midpoint of a split edge to an opposite vertex. */
 constexpr float LeastHeight = 0.02f;
-/** Roll backs after which a vertex counts as stuck. */
+/** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
-/** Longest edge of a stuck vertex that is collapsed, of the shortest legal edge. */
+/** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
 constexpr float StuckCollapse = 1.3f;
 }
 
@@ -32,9 +32,9 @@ void Remesher::Find(const std::vector<int>& vertices, RemeshFlag flag)
 
 bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
 {
-  // Where the longest edge of a triangle cannot be split, its two others would be in turn, each
-  // middle a quarter as far from the last one, until all lie on a line: triangles without height,
-  // whose sides no test can tell. An edge that is too long for a while does no harm.
+  // If the longest edge of a triangle cannot be split, the two others would be split in turn. Each
+  // midpoint would be a quarter as far from the last one, until all are collinear. Intersection
+  // tests fail for such needles, whereas a temporarily long edge does no harm.
   const SurfaceState& s = this->State;
   const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
   const float least = LeastHeight * s.Sizing.ShortestEdge(u, v);
@@ -47,7 +47,7 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
   SurfaceState& s = this->State;
   if (!s.Mesh.AreNeighbours(u, v))
   {
-    return true; // Split on the way to another one.
+    return true; // Split by the recursion.
   }
   const EdgeFlip across = EdgeFlip::Of(s.Mesh, u, v);
   if (this->MakesNeedles(u, v, across))
@@ -57,8 +57,8 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
   Edit split = this->Editor.Split(u, v);
   if (!split && depth > 0)
   {
-    // A vertex opposite to the edge has no room for another neighbour. Once an edge from it to one
-    // of the ends is split, that one's middle is what lies opposite.
+    // The ring of an opposite vertex is full. After a split of an edge from it to one of the ends,
+    // the midpoint of that edge is the opposite vertex.
     for (int full : { across.A, across.B })
     {
       if (s.Mesh.Rings[full].Count == Ring::Capacity && !this->SplitEdge(full, u, added, depth - 1))
@@ -74,7 +74,7 @@ bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
   }
   if (split)
   {
-    s.RemeshFlags[split.Vertex] = HasLongEdge; // Checked when the walk reaches it.
+    s.RemeshFlags[split.Vertex] = HasLongEdge; // Split() tests it later.
     added.push_back(split.Vertex);
   }
   return split.IsDone;
@@ -106,7 +106,7 @@ void Remesher::SplitAt(int v, std::vector<int>& added)
 void Remesher::Split(std::vector<int>& vertices)
 {
   this->Find(vertices, HasLongEdge);
-  // The list grows while it is walked: new vertices may have long edges of their own.
+  // The list grows in the loop: new vertices may have long edges.
   const std::size_t given = this->Items.size();
   for (std::size_t i = 0; i < this->Items.size(); ++i)
   {
@@ -133,7 +133,7 @@ void Remesher::CollapseAt(int v)
     const bool removedB = s.Mesh.Rings[b].Count == 3 && this->Editor.Remove(b).IsDone;
     if (removedA || removedB)
     {
-      i = -1; // The ring has changed: look at it afresh.
+      i = -1; // The ring has changed.
       continue;
     }
     const EdgeCollapse collapse{ v, w };
@@ -228,9 +228,9 @@ void Remesher::UnstickAt(int v)
   {
     return;
   }
-  for (float share : { 0.5f, 0.25f, 0.1f })
+  for (float fraction : { 0.5f, 0.25f, 0.1f })
   {
-    if (this->Editor.Move(v, p + (centre - p) * share, EditTolerance::Loose))
+    if (this->Editor.Move(v, p + (centre - p) * fraction, EditTolerance::Loose))
     {
       s.Velocity[v] = Vector();
       break;

@@ -13,69 +13,66 @@
 namespace volumic
 {
 /**
- * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts, the
- * paper's changes of topology, with the rules of Documentation/differences.md (Constraints,
- * Changes of topology). Each operation is a pass over the vertices that it concerns, in their order.
+ * Restores the constraints of eq. (1) after a displacement and decides on merges and cuts. See
+ * Documentation/differences.md, Constraints and Changes of topology. Each operation is a pass over
+ * the vertices concerned, in order.
  */
 class Remesher
 {
 public:
   /**
-   * @param field null: no image evidence is asked for
-   * @param share of the visit; null: nobody else edits
+   * @param field image evidence for merges; null: none is required
+   * @param context of the block pass; null: no other thread edits
    */
   Remesher(
-    SurfaceState& state, const Field* field, bool topologyChanges, EditShare* share = nullptr)
-    : State(state)
-    , Editor(state, share)
-    , TheField(field)
-    , TopologyChanges(topologyChanges)
+    SurfaceState& state, const Field* field, bool topologyChanges, EditContext* context = nullptr)
+    : State(state), Editor(state, context), TheField(field), TopologyChanges(topologyChanges)
   {
   }
 
   /**
-   * Splits all edges at these vertices that are longer than eq. (1) allows. Where a ring is full,
-   * other edges are split first to make room. New vertices are appended to the list.
-   * Changes no geometry, so it comes before verification, which relies on it.
+   * Split all edges at these vertices that are longer than eq. (1) allows. If a ring is full, other
+   * edges are split first. New vertices are appended to the list. The geometry is unchanged. Call
+   * it before the intersection tests, which rely on its result.
    */
   void Split(std::vector<int>& vertices);
 
-  /** Merges stars that have come too near and that the image wants joined; nearest first. */
+  /** Merge stars that are too near and that the image requires to be joined, nearest first. */
   void Merge(const std::vector<Proximity::ClosePair>& pairs);
 
-  /** Collapses edges shorter than eq. (1) allows, cutting along 3-cycles where they are blocked. */
+  /** Collapse edges shorter than eq. (1) allows. Cut along 3-cycles that block a collapse. */
   void Collapse(const std::vector<int>& vertices);
 
-  /** Flips edges that are not locally Delaunay where the surface is nearly flat. */
+  /** Flip edges that are not locally Delaunay where the surface is nearly flat. */
   void Flip(const std::vector<int>& vertices);
 
-  /** Collapses or smooths, verified, about vertices that are rolled back again and again. */
+  /** Collapse an edge at, or smooth, vertices that are rolled back repeatedly. */
   void Unstick(const std::vector<int>& vertices);
 
-  /** Changed vertices of all edits since the last call, in order; some may be named often. */
+  /** Return the changed vertices of all edits since the last call, in order, with duplicates. */
   std::vector<int> TakeChanged() { return this->Editor.TakeChanged(); }
   const std::vector<int>& Changed() const { return this->Editor.Changed(); }
 
 private:
   bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
-  /** Whether what lies opposite to an edge is so near to its middle that a split would. */
+  /** Return whether a split makes needles: an opposite vertex is near the midpoint. */
   bool MakesNeedles(int u, int v, const EdgeFlip& across) const;
   void SplitAt(int v, std::vector<int>& added);
-  bool IsMergeWanted(int u, int v) const;
+  bool AreApproaching(int u, int v) const;
   bool FlipBetween(int u, int v);
   void MergeOrFlip(int u, int v, std::vector<int>& strip);
   void CollapseAt(int v);
   void FlipAt(int v);
   void UnstickAt(int v);
 
-  /** Fills Items with the vertices that are alive and have the flag. */
+  /** Collect alive vertices with a flag in Items. */
   void Find(const std::vector<int>& vertices, RemeshFlag flag);
 
   SurfaceState& State;
   SurfaceEditor Editor;
   const Field* TheField;
   bool TopologyChanges;
-  std::vector<int> Items; ///< The vertices of a pass.
+  std::vector<int> Items; ///< Vertices of a pass.
 };
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The merges of Remesher, and the flips that close folds.
+// Merges of Remesher, and the flips that close folds.
 
 #include "Core/Surface/Remesher.h"
 
@@ -15,16 +15,16 @@ namespace volumic
 {
 namespace
 {
-/** Cosine between the normals of two stars that just don't face each other: 107 degrees. */
+/** Largest cosine between the normals of two stars that face each other: 107 degrees. */
 constexpr float FacingCosine = -0.3f;
-/** Least cosine between a star's normal and the line to the other one: it lies ahead or behind. */
+/** Least cosine between the normal of a star and the line to the other one. */
 constexpr float AheadCosine = 0.3f;
 
-/** Nearest first, then by index. */
+/** Order by distance, then by index. */
 struct NearPair
 {
   float Squared;
-  int V; ///< The smaller one.
+  int V; ///< Smaller index.
   int W;
 
   bool operator<(const NearPair& other) const
@@ -36,7 +36,7 @@ struct NearPair
 };
 }
 
-bool Remesher::IsMergeWanted(int u, int v) const
+bool Remesher::AreApproaching(int u, int v) const
 {
   const SurfaceState& s = this->State;
   const Vector across = s.Mesh.Position[v] - s.Mesh.Position[u];
@@ -47,7 +47,7 @@ bool Remesher::IsMergeWanted(int u, int v) const
   {
     return false;
   }
-  // In front of each other: the gap is outside and would become part of the object.
+  // In front: the gap is outside the object and would become part of it.
   const float ahead = Dot(n, across) / distance;
   const float back = -Dot(m, across) / distance;
   const bool front = ahead > AheadCosine && back > AheadCosine;
@@ -82,7 +82,7 @@ bool Remesher::FlipBetween(int u, int v)
     }
     if (this->TheField)
     {
-      // Joining u and v fills the fold where they are in front of each other, else cuts it off.
+      // Joining u and v fills the fold if they are in front of each other, else cuts it off.
       const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
       const Vector edge = (s.Mesh.Position[a] + s.Mesh.Position[b]) * 0.5f;
       const bool fills = Dot(middle - edge, s.Normal[a].Axis() + s.Normal[b].Axis()) > 0;
@@ -101,7 +101,7 @@ void Remesher::MergeOrFlip(int u, int v, std::vector<int>& strip)
 {
   SurfaceState& s = this->State;
   if (!s.Mesh.IsAlive(u) || !s.Mesh.IsAlive(v) || s.Mesh.AreNeighbours(u, v) ||
-    this->FlipBetween(u, v) || !this->TopologyChanges || !this->IsMergeWanted(u, v))
+    this->FlipBetween(u, v) || !this->TopologyChanges || !this->AreApproaching(u, v))
   {
     return;
   }
@@ -110,7 +110,7 @@ void Remesher::MergeOrFlip(int u, int v, std::vector<int>& strip)
   {
     return;
   }
-  // Bridge edges may be longer than eq. (1) allows, on which verification relies.
+  // Bridge edges may be longer than eq. (1) allows, but the intersection tests rely on it.
   std::vector<int> split(merge.Changed.begin(), merge.Changed.end());
   strip.insert(strip.end(), split.begin(), split.end());
   for (int w : split)
@@ -146,6 +146,6 @@ void Remesher::Merge(const std::vector<Proximity::ClosePair>& pairs)
   {
     this->MergeOrFlip(pair.V, pair.W, strips);
   }
-  this->Split(strips); // What could not be split at once.
+  this->Split(strips); // Edges that could not be split at once.
 }
 }

@@ -10,13 +10,13 @@
 
 namespace volumic
 {
-/** A number for each neighbour of a vertex, or each face, four of which are worked on at once. */
+/** A number per neighbour or face of a vertex, for SIMD access to four at once. */
 struct StarNumbers
 {
-  Lanes At(int i) const { return Lanes::Load(this->Item + i); } ///< Those from i on.
+  Lanes At(int i) const { return Lanes::Load(this->Item + i); } ///< The four from i on.
   void Set(int i, const Lanes& four) { four.Store(this->Item + i); }
   float operator[](int i) const { return this->Item[i]; }
-  /** The first two follow the last once more. */
+  /** Append copies of the first two. */
   void Close(int count)
   {
     this->Item[count] = this->Item[0];
@@ -26,7 +26,7 @@ struct StarNumbers
   alignas(16) float Item[Ring::Capacity + 1 + Lanes::Count];
 };
 
-/** The same for vectors. */
+/** A vector per neighbour or face. */
 struct StarVectors
 {
   VectorLanes At(int i) const { return VectorLanes(this->X.At(i), this->Y.At(i), this->Z.At(i)); }
@@ -43,7 +43,7 @@ struct StarVectors
     this->Y.Close(count);
     this->Z.Close(count);
   }
-  /** In their order. */
+  /** Return the sum, in order. */
   Vector Sum(int count) const
   {
     Vector sum;
@@ -62,12 +62,12 @@ struct StarVectors
 };
 
 /**
- * A vertex and the places of its neighbours. Sets of these, or of the faces, are bits: face i lies
- * between the neighbours i and i + 1.
+ * A vertex and the positions of its neighbours. Sets of neighbours or faces are bit sets. Face i
+ * lies between the neighbours i and i + 1.
  */
-struct StarRim
+struct StarLink
 {
-  StarRim(const SurfaceMesh& mesh, int v);
+  StarLink(const SurfaceMesh& mesh, int v);
 
   int After(int i) const { return i + 1 < this->Count ? i + 1 : 0; }
   std::array<int, 3> Face(int i) const
@@ -75,12 +75,12 @@ struct StarRim
     return { this->Centre, this->Item[i], this->Item[this->After(i)] };
   }
   unsigned All() const { return (1u << this->Count) - 1; }
-  /** Of bits about the neighbours: those of the neighbour after each. */
+  /** Return the bits of the next neighbours, cyclically. */
   unsigned Following(unsigned bits) const
   {
     return (bits >> 1 | bits << (this->Count - 1)) & this->All();
   }
-  /** The neighbours that are this vertex: one or none. */
+  /** Return the bit of the neighbour with this index, or 0. */
   unsigned Matching(int vertex) const
   {
     unsigned bits = 0;
@@ -90,7 +90,7 @@ struct StarRim
     }
     return bits & this->All();
   }
-  /** Whether this star and the star of another vertex, with this ring, have a common vertex. */
+  /** Return whether this star shares a vertex with that of `other`, which has this ring. */
   bool Shares(int other, const Ring& ring) const
   {
     unsigned shared = this->Matching(other);
@@ -103,19 +103,19 @@ struct StarRim
 
   int Centre;
   int Count;
-  int Item[Ring::Capacity + 1]; ///< The neighbours; four may be read from every fourth on.
-  Vector Place;
-  StarVectors Rim; ///< Places of the neighbours; after the last follow the first two.
+  int Item[Ring::Capacity + 1]; ///< Neighbours; four may be read from every fourth on.
+  Vector Position;
+  StarVectors Link; ///< Positions of the neighbours, then the first two again.
 };
 
-/** A star with what tells its faces from those of others. */
-struct StarFaces : StarRim
+/** A star with bounds and normals of its faces, for intersection tests. */
+struct StarFaces : StarLink
 {
   StarFaces(const SurfaceMesh& mesh, int v);
 
-  StarVectors Low; ///< Of the faces' boxes.
+  StarVectors Low; ///< Bounds of the faces.
   StarVectors High;
-  StarVectors Normal; ///< Unit, of the faces.
+  StarVectors Normal; ///< Unit normals of the faces.
 };
 }
 

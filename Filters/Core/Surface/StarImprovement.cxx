@@ -12,17 +12,17 @@ namespace volumic
 {
 namespace
 {
-/** Longest edge of a bad star that is worth a collapse, though legal, in delta. */
+/** Longest edge of a bad star that may be collapsed although it is legal, in delta. */
 constexpr float ShortEdge = 1.5f;
-/** What an edit must gain, so that none is undone by the next. */
+/** Least gain of an edit, so that the next one does not undo it. */
 constexpr float Gain = 0.01f;
-/** Way off the isopotential, in delta, that a slide may add. */
-constexpr float Stray = 0.02f;
-/** Longest step onto the isopotential, in delta. */
+/** Additional distance from the isosurface, in delta, that a slide may cause. */
+constexpr float OffIsosurface = 0.02f;
+/** Longest step onto the isosurface, in delta. */
 constexpr float LongestSnap = 0.15f;
 /** Longest step that separates two vertices, in delta. */
 constexpr float LongestPush = 0.25f;
-/** Least push that is worth a step, of ScoreMargin delta. */
+/** Least push that is applied, in ScoreMargin delta. */
 constexpr float LeastPush = 1e-3f;
 }
 
@@ -37,7 +37,7 @@ Vector StarImprovement::Snapped(int v, const Vector& position) const
   return position + n * this->SnapTo->StepToIso(this->SnapTo->At(position), n, longest);
 }
 
-bool StarImprovement::Strays(int v, const Vector& position) const
+bool StarImprovement::LeavesIsosurface(int v, const Vector& position) const
 {
   if (!this->SnapTo)
   {
@@ -46,7 +46,7 @@ bool StarImprovement::Strays(int v, const Vector& position) const
   const float old = std::abs(this->SnapTo->ValueAt(this->State.Mesh.Position[v]));
   const Field::Sample sample = this->SnapTo->At(position);
   return std::abs(sample.Value) >
-    old + Stray * this->State.Sizing.At(v) * this->SnapTo->SlopeOf(sample);
+    old + OffIsosurface * this->State.Sizing.At(v) * this->SnapTo->SlopeOf(sample);
 }
 
 bool StarImprovement::CollapseEdge(int u, int v, float before)
@@ -59,7 +59,7 @@ bool StarImprovement::CollapseEdge(int u, int v, float before)
     const int c = this->MayCut && before < 0 ? collapse.ThirdCommonNeighbour(mesh) : -1;
     return c >= 0 && this->Editor.Cut(u, v, c).IsDone;
   }
-  // Along the edge, and between it and the middle of the new star.
+  // Try positions on the edge, and between it and the mean of the new link.
   const Vector p = mesh.Position[u];
   const Vector q = mesh.Position[v];
   Vector sum;
@@ -83,11 +83,11 @@ bool StarImprovement::CollapseEdge(int u, int v, float before)
     for (float inward : { 0.f, 0.5f, 1.f })
     {
       const Vector x = p + (q - p) * along;
-      const Vector place = this->Snapped(u, x + (middle - x) * inward);
-      const float score = CollapseScore(this->State, u, v, place, before + Gain);
+      const Vector target = this->Snapped(u, x + (middle - x) * inward);
+      const float score = CollapseScore(this->State, u, v, target, before + Gain);
       if (score > before + Gain)
       {
-        this->Candidates.push_back({ score, place });
+        this->Candidates.push_back({ score, target });
       }
     }
   }
@@ -108,11 +108,11 @@ bool StarImprovement::CollapseEdges(int v)
   const SurfaceMesh& mesh = this->State.Mesh;
   const Ring ring = mesh.Rings[v];
   const float star = StarScore(this->State, v, mesh.Position[v]);
-  const float share = star < BadStar ? ShortEdge : 1 + ScoreMargin;
+  const float factor = star < BadStar ? ShortEdge : 1 + ScoreMargin;
   for (int i = 0; i < ring.Count; ++i)
   {
     const int w = ring.Item[i];
-    const float longest = share * this->State.Sizing.ShortestEdge(v, w);
+    const float longest = factor * this->State.Sizing.ShortestEdge(v, w);
     if (SquaredDistance(mesh.Position[v], mesh.Position[w]) >= longest * longest)
     {
       continue;
@@ -124,8 +124,7 @@ bool StarImprovement::CollapseEdges(int v)
         return true;
       }
     }
-    if (this->CollapseEdge(
-          v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
+    if (this->CollapseEdge(v, w, std::min(star, StarScore(this->State, w, mesh.Position[w]))))
     {
       return true;
     }
@@ -145,12 +144,12 @@ bool StarImprovement::FlipEdges(int v)
     const Vector& q = mesh.Position[w];
     const Vector& a = mesh.Position[ring.Next(i)];
     const Vector& b = mesh.Position[ring.Previous(i)];
-    const float before = std::min({ EdgeScore(sizing, v, w, SquaredDistance(p, q)),
-      FaceScore(p, q, a), FaceScore(q, p, b) });
-    const float after = std::min(
-      { EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
-      FaceScore(a, p, b), FaceScore(b, q, a) });
-    if (before < GoodStar && after > before + Gain && 
+    const float before = std::min(
+      { EdgeScore(sizing, v, w, SquaredDistance(p, q)), FaceScore(p, q, a), FaceScore(q, p, b) });
+    const float after =
+      std::min({ EdgeScore(sizing, ring.Next(i), ring.Previous(i), SquaredDistance(a, b)),
+        FaceScore(a, p, b), FaceScore(b, q, a) });
+    if (before < GoodStar && after > before + Gain &&
       this->Editor.Flip(v, w, EditTolerance::Smooth))
     {
       return true;
@@ -179,7 +178,7 @@ bool StarImprovement::Slide(int v)
       static const float cosine[8] = { 1, 0.70710678f, 0, -0.70710678f, -1, -0.70710678f, 0,
         0.70710678f };
       const Vector slide = first * cosine[k] + second * cosine[(k + 6) % 8];
-      // A bad star in a crease has no plane to slide in.
+      // A bad star in a crease has no tangent plane.
       for (int lift = bad ? -1 : 0; lift <= (bad ? 1 : 0); ++lift)
       {
         const Vector x = p + (slide + n * static_cast<float>(lift)) * (step * s.Sizing.At(v));
@@ -199,10 +198,10 @@ bool StarImprovement::Slide(int v)
     [](const Candidate& a, const Candidate& b) { return a.Score > b.Score; });
   for (const Candidate& candidate : this->Candidates)
   {
-    const Vector place = bad ? candidate.Position : this->Snapped(v, candidate.Position);
-    if (StarScore(this->State, v, place, before + Gain) > before + Gain &&
-      (bad || !(this->Strays(v, place) || this->Approaches(v, place))) &&
-      this->Editor.Move(v, place, EditTolerance::Smooth))
+    const Vector target = bad ? candidate.Position : this->Snapped(v, candidate.Position);
+    if (StarScore(this->State, v, target, before + Gain) > before + Gain &&
+      (bad || !(this->LeavesIsosurface(v, target) || this->Approaches(v, target))) &&
+      this->Editor.Move(v, target, EditTolerance::Smooth))
     {
       return true;
     }
@@ -271,11 +270,11 @@ bool StarImprovement::Separate(int v)
   }
   push *= std::min(1.f, LongestPush * s.Sizing.At(v) / length);
   const float least = std::min(StarScore(this->State, v, p), BadStar);
-  for (float share : { 1.f, 0.4f })
+  for (float factor : { 1.f, 0.4f })
   {
-    const Vector place = p + push * share;
-    if (StarScore(this->State, v, place) >= least &&
-      this->Editor.Move(v, place, EditTolerance::Smooth))
+    const Vector target = p + push * factor;
+    if (StarScore(this->State, v, target) >= least &&
+      this->Editor.Move(v, target, EditTolerance::Smooth))
     {
       return true;
     }

@@ -10,33 +10,29 @@
 
 namespace volumic
 {
-/** Stars that score this much, see StarScore, are left as they are. */
+/** Stars with at least this StarScore are not edited. */
 constexpr float GoodStar = 0.82f;
-/** Stars that score less are worth a slide off the isopotential, and the loss of a short edge. */
+/** Stars below this score may slide off the isosurface, and may lose a short edge. */
 constexpr float BadStar = 0.55f;
 
 /**
- * What can be done for one star whose worst face or edge is bad: removing a vertex of valence 3, a
- * collapse, a flip, or a slide along the surface; and for one that is too near to what is far apart
- * on the surface: a step away from it. An edit is made only where the worst of the faces concerned
- * gets better.
+ * Edits of one star whose worst face or edge is bad: removal of a vertex of valence 3, collapse,
+ * flip, or slide along the surface. A vertex too near to another part of the surface is moved away.
+ * An edit is made only if the worst score of the faces concerned increases.
  */
 class StarImprovement
 {
 public:
   /**
-   * @param snapTo (may be null): vertices that slide are led back onto its isopotential
-   * @param mayCut along a 3-cycle, where nothing else mends an edge that is too short
+   * @param snapTo field whose isosurface sliding vertices are projected onto; may be null
+   * @param mayCut cut along a 3-cycle if no other edit removes an edge that is too short
    */
   StarImprovement(SurfaceState& state, SurfaceEditor& editor, const Field* snapTo, bool mayCut)
-    : State(state)
-    , Editor(editor)
-    , SnapTo(snapTo)
-    , MayCut(mayCut)
+    : State(state), Editor(editor), SnapTo(snapTo), MayCut(mayCut)
   {
   }
 
-  /** Mends the star; the vertex must be alive. @return whether an edit was made */
+  /** Improve the star of an alive vertex. Return whether an edit was made. */
   bool Improve(int v);
   bool Separate(int v);
 
@@ -45,7 +41,7 @@ private:
   bool CollapseEdges(int v);
   bool CollapseEdge(int u, int v, float before);
   bool FlipEdges(int v);
-  bool Strays(int v, const Vector& position) const;
+  bool LeavesIsosurface(int v, const Vector& position) const;
   bool Approaches(int v, const Vector& position) const;
   bool Slide(int v);
 
@@ -62,7 +58,7 @@ private:
   std::vector<Candidate> Candidates;
 };
 
-/** A push away from vertices that are nearer than lambda delta though far apart on the surface. */
+/** Return the push away from vertices that violate the clearance lambda delta of eq. (1). */
 Vector PushAt(const SurfaceState& state, int v);
 }
 

@@ -42,8 +42,7 @@ float StarScore(const SurfaceState& state, int v, const Vector& position, float 
   return worst;
 }
 
-float CollapseScore(
-  const SurfaceState& state, int u, int v, const Vector& position, float bound)
+float CollapseScore(const SurfaceState& state, int u, int v, const Vector& position, float bound)
 {
   const SurfaceMesh& mesh = state.Mesh;
   float worst = 1;
@@ -59,11 +58,11 @@ float CollapseScore(
       {
         continue;
       }
-      const Vector& place = mesh.Position[b];
-      worst = std::min(worst, EdgeScore(state.Sizing, u, b, SquaredDistance(position, place)));
+      const Vector& neighbour = mesh.Position[b];
+      worst = std::min(worst, EdgeScore(state.Sizing, u, b, SquaredDistance(position, neighbour)));
       if (c != other)
       {
-        worst = std::min(worst, FaceScore(position, place, mesh.Position[c]));
+        worst = std::min(worst, FaceScore(position, neighbour, mesh.Position[c]));
       }
     }
   }

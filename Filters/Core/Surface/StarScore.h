@@ -7,25 +7,22 @@
 
 namespace volumic
 {
-/**
- * Scores count edges as too short or too long a little before eq. (1) does, by this share, for the
- * rounding of the map to the world.
- */
+/** Relative margin of the edge length bounds, for the rounding of world coordinates. */
 constexpr float ScoreMargin = 1e-4f;
 
-/** Radius ratio of a face, twice the inscribed over the circumscribed circle's: 0 to 1, -1: none */
+/** Return the radius ratio of a face, 2 inradius / circumradius: 0 to 1, or -1 if undefined. */
 float FaceScore(const Vector& a, const Vector& b, const Vector& c);
 
-/** 1 for a length that eq. (1) allows, else negative: worse than any face. */
+/** Return 1 for a length that eq. (1) allows, else a negative value: worse than any face. */
 float EdgeScore(const SizingField& sizing, int u, int v, float squaredLength);
 
 /**
- * The worst of the faces and edges about a vertex, if it were at the position. @param bound what
- * scores no more than this may be told as anything up to it, which takes less
+ * Return the worst score of the faces and edges of v at a position. Values up to `bound` may be
+ * inexact, which saves time.
  */
 float StarScore(const SurfaceState& state, int v, const Vector& position, float bound = -2.f);
 
-/** The worst of those about what an edge collapses to. @param bound as above */
+/** Return the StarScore of the vertex to which the edge (u, v) collapses. */
 float CollapseScore(
   const SurfaceState& state, int u, int v, const Vector& position, float bound = -2.f);
 }

@@ -8,13 +8,12 @@
 
 namespace volumic
 {
-StarShape::StarShape(const SurfaceMesh& mesh, int v)
-  : StarRim(mesh, v)
+StarShape::StarShape(const SurfaceMesh& mesh, int v) : StarLink(mesh, v)
 {
-  const VectorLanes place = AllLanes(this->Place);
+  const VectorLanes position = AllLanes(this->Position);
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    const VectorLanes edge = this->Rim.At(i) - place;
+    const VectorLanes edge = this->Link.At(i) - position;
     this->Edge.Set(i, edge);
     this->Length.Set(i, SquareRoot(Dot(edge, edge)));
   }
@@ -56,14 +55,15 @@ bool StarShape::IsDelaunay() const
   unsigned flipped = 0;
   for (int i = 0; i < this->Count; i += Lanes::Count)
   {
-    // Of the edge after each: what is opposite to it lies at the ends of this one and the next.
+    // Test the edge after each one: the angles opposite to it are at the ends of this edge and of
+    // the next but one.
     const Lanes before = this->Length.At(i);
     const Lanes after = this->Length.At(i + 2);
     const Lanes a = before * before - this->Inner.At(i);
     const Lanes b = after * after - this->Inner.At(i + 1);
     const Lanes sizeA = this->Size.At(i);
     const Lanes sizeB = this->Size.At(i + 1);
-    // a / sizeA + b / sizeB < least, free of divisions
+    // a / sizeA + b / sizeB < least, without division.
     flipped |= LessBits(a * sizeB + b * sizeA, least * sizeB * sizeA) << i;
   }
   return (flipped & this->All()) == 0;

@@ -8,20 +8,20 @@
 
 namespace volumic
 {
-/** The edges of a star, from its vertex on, and the faces between them. */
-struct StarShape : StarRim
+/** The edges of a star, as vectors from its vertex, and its faces. */
+struct StarShape : StarLink
 {
   StarShape(const SurfaceMesh& mesh, int v);
 
   NormalCone Cone() const;
-  /** Whether the angles opposite to each edge exceed 180 degrees by no more than a little. */
+  /** Return whether no two angles opposite to an edge exceed 180 degrees noticeably. */
   bool IsDelaunay() const;
 
   StarVectors Edge;
   StarNumbers Length; ///< Of the edges.
   StarVectors Normal; ///< Of face i, between the edges i and i + 1.
-  StarNumbers Size;   ///< Twice its area: the normal's length.
-  StarNumbers Inner;  ///< Product of its two edges.
+  StarNumbers Size;   ///< Length of Normal: twice the area.
+  StarNumbers Inner;  ///< Scalar product of the two edges.
 };
 }
 

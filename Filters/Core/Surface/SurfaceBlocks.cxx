@@ -14,53 +14,53 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time. */
 constexpr std::size_t VertexSpan = 8192;
 /**
- * Places for new vertices that a block gets at least, and those that all blocks with vertices
- * share, as a small surface grows fast; for how many of its own a block gets one more, and how many
- * for each that its last visit took: a surface that grows takes more each time. Where there was
- * none yet it is guessed for how many vertices one was taken. And how many for each vertex with an
- * edge that is too long: where only some of them are split needles come of what is left.
+ * Numbers of free slots: minimum per block with vertices, and total shared by all such blocks, as a
+ * small surface grows fast. The others are ratios: vertices per slot, slots per slot used in the
+ * last pass, vertices per slot used if there was no pass yet, slots per vertex with a long edge.
+ * Too few slots for long edges would make needles.
  */
-constexpr int FewPlaces = 40;
-constexpr int SharedPlaces = 4096;
-constexpr int VerticesPerPlace = 8;
-constexpr int PlacesPerTaken = 2;
-constexpr int VerticesPerTaken = 12;
-constexpr int PlacesPerLong = 16;
-/** How far out of its block a vertex may be before it must be another block's; in delta. */
-constexpr float Astray = SurfaceBlocks::MovingInDelta - 0.5f;
+constexpr int MinimumSlots = 40;
+constexpr int SharedSlots = 4096;
+constexpr int VerticesPerSlot = 8;
+constexpr int SlotsPerUsedSlot = 2;
+constexpr int VerticesPerUsedSlot = 12;
+constexpr int SlotsPerLongEdge = 16;
+/** Distance from its block, in delta, at which a vertex is assigned to another block. */
+constexpr float StrayDistance = SurfaceBlocks::MovingInDelta - 0.5f;
 
-// See SurfaceBlocks; in delta. An edge, of which both ends may move by half a delta at once:
+// In delta, see SurfaceBlocks. Both ends of an edge may move by half a delta at once.
 constexpr float LongestEdge = HugeEdge * SizingField::LongestEdgeInDelta + 1.f;
 static_assert(LongestBridgeEdge * SizingField::LongestEdgeInDelta <= LongestEdge &&
     SizingField::DivisionFactor * SizingField::LongestEdgeInDelta <= LongestEdge,
-  "a merge, and a division that keeps an old edge, make none longer");
-/** As far as Proximity looks, about a vertex that is slow. */
-constexpr float Reach = SizingField::ReachInDelta + Proximity::FurtherReachInDelta;
+  "merges and divisions that keep an old edge must not make longer edges");
+/** Search radius of Proximity for a slow vertex. */
+constexpr float SearchRadius =
+  SizingField::SearchRadiusInDelta + Proximity::ExtraSearchRadiusInDelta;
 static_assert(SurfaceBlocks::EditedInDelta + LongestEdge <= SurfaceBlocks::WrittenInDelta,
-  "an edit writes as far as the edges of the stars that it may begin at");
+  "an edit writes within an edge length of the stars at which it begins");
 static_assert(SurfaceBlocks::MovingInDelta + 0.5f <= SurfaceBlocks::EditedInDelta,
-  "what has moved is written no further than what is edited");
-static_assert(SurfaceBlocks::WrittenInDelta + Reach + LongestEdge <= SurfaceBlocks::HaloInDelta,
-  "what is examined is written, and stars within its reach are read");
+  "vertices must not move beyond the region of edits");
 static_assert(
-  SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta + SizingField::ReachInDelta <=
+  SurfaceBlocks::WrittenInDelta + SearchRadius + LongestEdge <= SurfaceBlocks::HaloInDelta,
+  "tested vertices are written, and stars within their search radius are read");
+static_assert(
+  SurfaceBlocks::WrittenInDelta + SurfaceBlocks::HaloInDelta + SizingField::SearchRadiusInDelta <=
     SurfaceBlocks::SideInDelta,
-  "what visits of one colour write and read has no cell of the grid in common");
+  "concurrent passes must not access the same cell of the grid");
 
 constexpr int NoBlock = -1;
 
-/** How many more vertices a block may get that has so many, of which some have long edges. */
-int RoomFor(int vertices, int taken, int withLongEdge)
+/** Return the number of free slots for a block. */
+int SlotsFor(int vertices, int slotsUsed, int withLongEdge)
 {
-  const int more =
-    std::max({ vertices / VerticesPerPlace, PlacesPerTaken * taken, PlacesPerLong * withLongEdge });
-  return vertices > 0 ? FewPlaces + more : 0;
+  const int more = std::max(
+    { vertices / VerticesPerSlot, SlotsPerUsedSlot * slotsUsed, SlotsPerLongEdge * withLongEdge });
+  return vertices > 0 ? MinimumSlots + more : 0;
 }
 
-/** 0, 2, 1, 4, 3, ...: those of even place before their neighbours of odd place. */
+/** Return 0, 2, 1, 4, 3, ...: even indices before their odd neighbours. */
 std::vector<int> EvenFirst(int count)
 {
   std::vector<int> order;
@@ -98,46 +98,47 @@ SurfaceBlocks::SurfaceBlocks(SurfaceState& state, const Frame& frame, Executor& 
   : State(state), TheFrame(frame)
 {
   const std::array<int, 3>& size = frame.Size;
-  this->All.resize(static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
+  this->Ranges.resize(
+    static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * size[2]);
   this->Reorder(executor, true);
-  this->FindOrder();
+  this->MakeSchedule();
 }
 
-std::array<int, 3> SurfaceBlocks::PlaceOf(const Vector& position) const
+std::array<int, 3> SurfaceBlocks::IjkOf(const Vector& position) const
 {
   const Vector from = position - this->TheFrame.Low;
   const float along[3] = { from.X, from.Y, from.Z };
-  std::array<int, 3> places;
+  std::array<int, 3> ijk;
   for (int axis = 0; axis < 3; ++axis)
   {
-    const float place = along[axis] / this->TheFrame.Side[axis];
-    places[axis] = static_cast<int>( // Which rounds down what is not negative.
-      std::clamp(place, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
+    const float index = along[axis] / this->TheFrame.Side[axis];
+    ijk[axis] = static_cast<int>( // Rounds down.
+      std::clamp(index, 0.f, static_cast<float>(this->TheFrame.Size[axis] - 1)));
   }
-  return places;
+  return ijk;
 }
 
-std::array<int, 3> SurfaceBlocks::PlaceOf(int block) const
+std::array<int, 3> SurfaceBlocks::IjkOf(int block) const
 {
   const std::array<int, 3>& size = this->TheFrame.Size;
   return { block % size[0], block / size[0] % size[1], block / size[0] / size[1] };
 }
 
-int SurfaceBlocks::BlockOf(const std::array<int, 3>& place) const
+int SurfaceBlocks::BlockOf(const std::array<int, 3>& ijk) const
 {
   const std::array<int, 3>& size = this->TheFrame.Size;
-  return place[0] + size[0] * (place[1] + size[1] * place[2]);
+  return ijk[0] + size[0] * (ijk[1] + size[1] * ijk[2]);
 }
 
 int SurfaceBlocks::BlockAt(const Vector& position) const
 {
-  return this->BlockOf(this->PlaceOf(position));
+  return this->BlockOf(this->IjkOf(position));
 }
 
 Box SurfaceBlocks::BoxOf(int block) const
 {
   constexpr float endless = 1e9f;
-  const std::array<int, 3> place = this->PlaceOf(block);
+  const std::array<int, 3> ijk = this->IjkOf(block);
   const Vector& origin = this->TheFrame.Low;
   const float origins[3] = { origin.X, origin.Y, origin.Z };
   float low[3];
@@ -146,8 +147,8 @@ Box SurfaceBlocks::BoxOf(int block) const
   {
     const auto at = [&](int k)
     { return origins[axis] + this->TheFrame.Side[axis] * static_cast<float>(k); };
-    low[axis] = place[axis] == 0 ? -endless : at(place[axis]);
-    high[axis] = place[axis] == this->TheFrame.Size[axis] - 1 ? endless : at(place[axis] + 1);
+    low[axis] = ijk[axis] == 0 ? -endless : at(ijk[axis]);
+    high[axis] = ijk[axis] == this->TheFrame.Size[axis] - 1 ? endless : at(ijk[axis] + 1);
   }
   return { Vector(low[0], low[1], low[2]), Vector(high[0], high[1], high[2]) };
 }
@@ -155,17 +156,19 @@ Box SurfaceBlocks::BoxOf(int block) const
 std::vector<int> SurfaceBlocks::NeighboursOf(int block) const
 {
   std::vector<int> neighbours;
-  const std::array<int, 3> place = this->PlaceOf(block);
-  const VoxelBox near = { place, { place[0] + 1, place[1] + 1, place[2] + 1 } };
-  near.Grown(1).CommonWith(VoxelBox::Of(this->TheFrame.Size)).ForVoxels(
-    [&](int x, int y, int z)
-    {
-      const int other = this->BlockOf({ x, y, z });
-      if (other != block)
+  const std::array<int, 3> ijk = this->IjkOf(block);
+  const VoxelBox near = { ijk, { ijk[0] + 1, ijk[1] + 1, ijk[2] + 1 } };
+  near.Grown(1)
+    .CommonWith(VoxelBox::Of(this->TheFrame.Size))
+    .ForVoxels(
+      [&](int x, int y, int z)
       {
-        neighbours.push_back(other);
-      }
-    });
+        const int other = this->BlockOf({ x, y, z });
+        if (other != block)
+        {
+          neighbours.push_back(other);
+        }
+      });
   return neighbours;
 }
 
@@ -183,8 +186,8 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
         blocks[v] = mesh.IsAlive(static_cast<int>(v)) ? this->BlockAt(mesh.Position[v]) : NoBlock;
       }
     });
-  std::vector<int> counts(this->All.size(), 0);
-  std::vector<int> withLongEdge(this->All.size(), 0);
+  std::vector<int> counts(this->Ranges.size(), 0);
+  std::vector<int> withLongEdge(this->Ranges.size(), 0);
   for (std::size_t v = 0; v < n; ++v)
   {
     if (blocks[v] != NoBlock)
@@ -195,47 +198,47 @@ void SurfaceBlocks::Reorder(Executor& executor, bool isNew)
   }
   const auto withVertices =
     std::count_if(counts.begin(), counts.end(), [](int count) { return count > 0; });
-  const int share = SharedPlaces / std::max(static_cast<int>(withVertices), 1);
+  const int sharedSlots = SharedSlots / std::max(static_cast<int>(withVertices), 1);
   int first = 0;
   for (std::size_t block = 0; block < counts.size(); ++block)
   {
-    OfBlock& own = this->All[block];
-    own.Taken = isNew ? counts[block] / VerticesPerTaken : own.Taken;
+    VertexRange& own = this->Ranges[block];
+    own.SlotsUsed = isNew ? counts[block] / VerticesPerUsedSlot : own.SlotsUsed;
     own.First = own.Next = first;
-    const int room = RoomFor(counts[block], own.Taken, withLongEdge[block]);
-    own.End = first += counts[block] + room + (room > 0 ? share : 0);
-    own.IsAstray = false;
+    const int slots = SlotsFor(counts[block], own.SlotsUsed, withLongEdge[block]);
+    own.End = first += counts[block] + slots + (slots > 0 ? sharedSlots : 0);
+    own.HasStray = false;
   }
   std::vector<int> order(static_cast<std::size_t>(first), NoVertex);
   for (std::size_t v = 0; v < n; ++v)
   {
     if (blocks[v] != NoBlock)
     {
-      order[this->All[blocks[v]].Next++] = static_cast<int>(v);
+      order[this->Ranges[blocks[v]].Next++] = static_cast<int>(v);
     }
   }
   blocks = {};
-  this->State.Reorder(order, this->Spares, executor);
+  this->State.Reorder(order, this->Buffers, executor);
 }
 
 void SurfaceBlocks::Prepare(Executor& executor)
 {
   const std::uint8_t* flags = this->State.RemeshFlags.AsVector().data();
-  const auto isUnfit = [flags](const OfBlock& own)
+  const auto isUnfit = [flags](const VertexRange& own)
   {
     const auto withLongEdge = std::count_if(flags + own.First, flags + own.Next,
       [](std::uint8_t ofVertex) { return (ofVertex & HasLongEdge) != 0; });
-    return own.IsAstray ||
+    return own.HasStray ||
       own.End - own.Next <
-      RoomFor(own.Next - own.First, own.Taken, static_cast<int>(withLongEdge)) / 2;
+      SlotsFor(own.Next - own.First, own.SlotsUsed, static_cast<int>(withLongEdge)) / 2;
   };
-  if (std::any_of(this->All.begin(), this->All.end(), isUnfit))
+  if (std::any_of(this->Ranges.begin(), this->Ranges.end(), isUnfit))
   {
     this->Reorder(executor, false);
   }
 }
 
-void SurfaceBlocks::FindOrder()
+void SurfaceBlocks::MakeSchedule()
 {
   std::vector<int> order;
   for (const int z : EvenFirst(this->TheFrame.Size[2]))
@@ -248,8 +251,8 @@ void SurfaceBlocks::FindOrder()
       }
     }
   }
-  // Slab by slab, which touches memory less often than a colour after the other.
-  this->Visits = std::make_unique<VisitSchedule>(
+  // Slab by slab, which needs less memory traffic than colour by colour.
+  this->Passes = std::make_unique<BlockSchedule>(
     std::move(order), [this](int block) { return this->NeighboursOf(block); });
 }
 
@@ -260,14 +263,13 @@ bool SurfaceBlocks::Append(const IndexedSurface& surface, bool isInParts, Execut
   s.Append(surface, executor);
   std::vector<int> added(static_cast<std::size_t>(s.Mesh.Size() - first));
   std::iota(added.begin(), added.end(), first);
-  const std::vector<Proximity::FacePair> found =
-    Proximity::FindIntersections(s, added, executor);
-  std::vector<int> wrong;
+  const std::vector<Proximity::FacePair> found = Proximity::FindIntersections(s, added, executor);
+  std::vector<int> intersecting;
   for (const Proximity::FacePair& pair : found)
   {
-    wrong.insert(wrong.end(), { pair.First[0], pair.Second[0] });
+    intersecting.insert(intersecting.end(), { pair.First[0], pair.Second[0] });
   }
-  for (const int v : isInParts || found.empty() ? wrong : added)
+  for (const int v : isInParts || found.empty() ? intersecting : added)
   {
     if (v >= first && s.Mesh.IsAlive(v))
     {
@@ -278,28 +280,28 @@ bool SurfaceBlocks::Append(const IndexedSurface& surface, bool isInParts, Execut
   return found.empty();
 }
 
-BlockVisit SurfaceBlocks::Open(int block)
+BlockPass SurfaceBlocks::Open(int block)
 {
-  const OfBlock& own = this->All[block];
-  BlockVisit visit;
-  visit.Block = block;
-  visit.First = own.First;
-  visit.Share.Room = { own.Next, own.End };
+  const VertexRange& own = this->Ranges[block];
+  BlockPass pass;
+  pass.Block = block;
+  pass.First = own.First;
+  pass.Context.Slots = { own.Next, own.End };
   const Box box = this->BoxOf(block);
   const float delta = this->State.Sizing.Smallest();
-  visit.Moving = box.Grown(MovingInDelta * delta);
-  visit.Share.Region = box.Grown(EditedInDelta * delta);
-  visit.Written = box.Grown(WrittenInDelta * this->State.Sizing.Largest());
-  return visit;
+  pass.Moving = box.Grown(MovingInDelta * delta);
+  pass.Context.Region = box.Grown(EditedInDelta * delta);
+  pass.Written = box.Grown(WrittenInDelta * this->State.Sizing.Largest());
+  return pass;
 }
 
 double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Executor& executor) const
 {
-  return SumOfSpans(executor, this->All.size(), 1,
+  return SumOfSpans(executor, this->Ranges.size(), 1,
     [&](std::size_t block, std::size_t)
     {
       double sum = 0.;
-      for (int v = this->All[block].First; v < this->All[block].Next; ++v)
+      for (int v = this->Ranges[block].First; v < this->Ranges[block].Next; ++v)
       {
         sum += ofVertex(v);
       }
@@ -307,25 +309,25 @@ double SurfaceBlocks::SumUp(const std::function<double(int v)>& ofVertex, Execut
     });
 }
 
-void SurfaceBlocks::Close(BlockVisit&& visit)
+void SurfaceBlocks::Close(BlockPass&& pass)
 {
   SurfaceState& s = this->State;
-  OfBlock& own = this->All[visit.Block];
-  own.Taken = visit.End() - own.Next;
-  own.Next = visit.End();
-  const Box box = this->BoxOf(visit.Block).Grown(Astray * s.Sizing.Smallest());
-  for (int v = own.First; v < own.Next && !own.IsAstray; ++v)
+  VertexRange& own = this->Ranges[pass.Block];
+  own.SlotsUsed = pass.End() - own.Next;
+  own.Next = pass.End();
+  const Box box = this->BoxOf(pass.Block).Grown(StrayDistance * s.Sizing.Smallest());
+  for (int v = own.First; v < own.Next && !own.HasStray; ++v)
   {
-    own.IsAstray = s.Mesh.IsAlive(v) && !box.Contains(s.Mesh.Position[v]);
+    own.HasStray = s.Mesh.IsAlive(v) && !box.Contains(s.Mesh.Position[v]);
   }
   const std::lock_guard<std::mutex> lock(this->Closing);
-  s.Mesh.Count(visit.Share.Room);
-  s.EulerCharacteristic += visit.Share.EulerCharacteristic;
+  s.Mesh.Count(pass.Context.Slots);
+  s.EulerCharacteristic += pass.Context.EulerCharacteristic;
 }
 
 bool SurfaceBlocks::HasActive(int block) const
 {
-  const OfBlock& own = this->All[block];
+  const VertexRange& own = this->Ranges[block];
   const std::uint8_t* active = this->State.Active.AsVector().data();
   return std::any_of(
     active + own.First, active + own.Next, [](std::uint8_t isActive) { return isActive != 0; });

@@ -21,7 +21,6 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread joins at a time. */
 constexpr std::size_t JoinedSpan = 4096;
 
 void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& executor)
@@ -31,8 +30,7 @@ void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& exe
     {
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
-        // Neighbours next to each other are neighbours themselves: of the smaller ones that follow
-        // each other one is enough.
+        // Consecutive neighbours are adjacent: one of each run of smaller ones suffices.
         const Ring& ring = mesh.Rings[v];
         bool wasSmaller = false;
         for (int i = 0; i < ring.Count; ++i)
@@ -49,8 +47,8 @@ void JoinNeighbours(const SurfaceMesh& mesh, DisjointSets& joined, Executor& exe
 }
 
 /**
- * Labels alive vertices by the sets that edges join, from 0, in the order of their smallest ones;
- * the others get NoVertex. O(vertices). @return by label: its smallest vertex
+ * Label alive vertices by connected component, from 0, in the order of the smallest vertices,
+ * others with NoVertex. O(vertices). Return the smallest vertex of each label.
  */
 std::vector<int> LabelConnected(
   const SurfaceMesh& mesh, LargeVector<int>& labels, Executor& executor)
@@ -74,7 +72,7 @@ std::vector<int> LabelConnected(
       for (int v = static_cast<int>(begin); v < static_cast<int>(end); ++v)
       {
         const int root = mesh.IsAlive(v) ? joined.Find(v) : NoVertex;
-        if (v != root) // Others read the root's.
+        if (v != root) // Other threads read the label of the root.
         {
           labels[v] = root == NoVertex ? NoVertex : labels[root];
         }
@@ -83,7 +81,6 @@ std::vector<int> LabelConnected(
   return smallest;
 }
 
-/** Vertices that one thread looks for crossings at at a time. */
 constexpr std::size_t CrossedSpan = 8192;
 
 Point PointAt(const Vector& p)
@@ -91,44 +88,44 @@ Point PointAt(const Vector& p)
   return { p.X, p.Y, p.Z };
 }
 
-/** From the first vertex of a component along x. */
+/** Ray along x from the first vertex of a component. */
 struct ComponentRay
 {
   int Root;
   int Label;
   Point Origin;
-  bool IsCavity; ///< The component's volume is negative.
+  bool IsCavity; ///< Its volume is negative.
 };
 
-/** Faces of one label in a span. */
+/** Label and volume of its faces in a span. */
 using PartialVolume = std::pair<int, double>;
 
-/** Of the faces whose smallest vertex is in a range, by label. */
+/** Return the volumes by label of the faces whose smallest vertex is in a range. */
 std::vector<PartialVolume> VolumesOf(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<Vector>& origins, std::size_t begin, std::size_t end)
 {
   std::vector<PartialVolume> volumes;
-  std::unordered_map<int, std::size_t> places;
-  std::size_t place = 0;
+  std::unordered_map<int, std::size_t> slots;
+  std::size_t slot = 0;
   mesh.VisitFaces(begin, end,
     [&](int a, int b, int c)
     {
       const int label = labels[a];
-      if (volumes.empty() || volumes[place].first != label)
+      if (volumes.empty() || volumes[slot].first != label)
       {
-        const auto found = places.emplace(label, volumes.size());
-        place = found.first->second;
+        const auto found = slots.emplace(label, volumes.size());
+        slot = found.first->second;
         if (found.second)
         {
           volumes.emplace_back(label, 0.);
         }
       }
-      volumes[place].second += SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c);
+      volumes[slot].second += SignedVolume::OfFace(mesh, VectorD(origins[label]), a, b, c);
     });
   return volumes;
 }
 
-/** The volumes of all labels; each seen from a place of its own. */
+/** Return the volumes of all labels, each about its own origin. */
 std::vector<double> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<Vector>& origins, Executor& executor)
 {
@@ -148,21 +145,21 @@ std::vector<double> VolumesOfFaces(const SurfaceMesh& mesh, const LargeVector<in
   return volumes;
 }
 
-/** A ray of each component, by Y. */
+/** Return a ray per component, sorted by y. */
 std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
 {
-  std::vector<Vector> places;
+  std::vector<Vector> origins;
   for (const int root : roots)
   {
-    places.push_back(mesh.Position[root]);
+    origins.push_back(mesh.Position[root]);
   }
-  const std::vector<double> volumes = VolumesOfFaces(mesh, labels, places, executor);
+  const std::vector<double> volumes = VolumesOfFaces(mesh, labels, origins, executor);
   std::vector<ComponentRay> rays;
   for (std::size_t label = 0; label < roots.size(); ++label)
   {
-    rays.push_back({ roots[label], static_cast<int>(label), PointAt(places[label]),
-      volumes[label] < 0. });
+    rays.push_back(
+      { roots[label], static_cast<int>(label), PointAt(origins[label]), volumes[label] < 0. });
   }
   std::sort(rays.begin(), rays.end(),
     [](const ComponentRay& a, const ComponentRay& b)
@@ -171,11 +168,11 @@ std::vector<ComponentRay> CastRays(const SurfaceMesh& mesh, const LargeVector<in
 }
 
 /**
- * The components that are inside out: a cavity must lie inside the others, any other one outside.
- * They are judged from outside in, as if what is inside out were not there. Rays along x: O(n +
- * pairs of ray and triangle that overlap). The same for any executor.
- * @param labels of vertices, from 0 @param roots a vertex of each label
- * @return the roots of those that are inside out, those within fewer others first
+ * Find the components that are inside out, see DeleteInsideOut(), with rays along x. O(n + pairs of
+ * ray and triangle that overlap). The result does not depend on the executor.
+ * @param labels of vertices, from 0
+ * @param roots a vertex of each label
+ * @return roots of these components, those enclosed by fewer components first
  */
 std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& labels,
   const std::vector<int>& roots, Executor& executor)
@@ -188,7 +185,7 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
     origins.push_back(ray.Origin);
     own.push_back(ray.Label);
   }
-  const std::vector<std::vector<int>> around = ComponentsAbout(
+  const std::vector<std::vector<int>> enclosing = EnclosingComponents(
     origins, own, mesh.Rings.size(),
     [&](std::size_t begin, std::size_t end, const auto& visit)
     {
@@ -200,16 +197,16 @@ std::vector<int> FindInsideOut(const SurfaceMesh& mesh, const LargeVector<int>& 
         });
     },
     executor);
-  // From outside in: what is inside out encloses nothing.
+  // From outside in: components that are inside out enclose nothing.
   std::vector<int> order(rays.size());
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
-    [&around](int a, int b) { return around[a].size() < around[b].size(); });
+    [&enclosing](int a, int b) { return enclosing[a].size() < enclosing[b].size(); });
   std::vector<char> isInsideOut(rays.size(), 0); // By label.
   std::vector<int> found;
   for (int i : order)
   {
-    const auto depth = std::count_if(around[i].begin(), around[i].end(),
+    const auto depth = std::count_if(enclosing[i].begin(), enclosing[i].end(),
       [&isInsideOut](int label) { return !isInsideOut[label]; });
     if ((depth % 2 == 1) != rays[i].IsCavity)
     {
@@ -243,7 +240,7 @@ bool SurfaceComponents::DeleteDegenerate(SurfaceState& state, Executor& executor
   watch.LabelSmall(
     state, 0, state.Mesh.Size(), { Vector(-far, -far, -far), Vector(far, far, far) });
   const bool deleted = watch.DeleteDegenerate(state);
-  this->Label(state, executor); // It gives labels of its own.
+  this->Label(state, executor); // The watch has changed labels.
   return deleted;
 }
 

@@ -11,22 +11,22 @@
 namespace volumic
 {
 /**
- * The components of a surface, between sweeps: their labels, and which of them must go. The same
- * for any executor. SurfaceState::Counts tell what was deleted.
+ * Labels the components of a surface between sweeps and deletes degenerate ones. The result does
+ * not depend on the executor. SurfaceState::Counts count the deletions.
  */
 class SurfaceComponents
 {
 public:
   /**
-   * Labels, in SurfaceState::Component, all vertices: components from 0, in the order of their
-   * smallest vertices. What is asked for below is asked of these labels.
+   * Label all vertices in SurfaceState::Component: components from 0, in the order of their
+   * smallest vertices. The other functions use these labels.
    */
   void Label(SurfaceState& state, Executor& executor);
 
-  /** How many there were when they were last labelled. */
+  /** Return the number of components at the last labelling. */
   int NumberOfComponents() const { return static_cast<int>(this->Roots.size()); }
 
-  /** Add edits to those since the labelling. */
+  /** Add edits made since the labelling. */
   void Note(const EditCounts& edits) { this->Edits += edits; }
   /** Return the components that are certain to be large after these edits. */
   LargeComponents Large() const
@@ -35,23 +35,23 @@ public:
   }
 
   /**
-   * Deletes the small components that must go (ComponentWatch::DeleteDegenerate).
-   * @return whether anything was deleted; labels are fresh then
+   * Delete degenerate small components, see ComponentWatch::DeleteDegenerate, then label.
+   * @return whether any was deleted
    */
   bool DeleteDegenerate(SurfaceState& state, Executor& executor);
 
   /**
-   * Labels, and deletes the components that are inside out: a cavity must lie inside the others,
-   * any other one outside. Such a one may be born by a cut, of no size and without any
-   * intersection, and would grow without limit. They are judged from outside in, as if what is
-   * deleted had never been: what lies in one that is inside out need not be.
-   * @return whether anything was deleted; labels are fresh then, too
+   * Label, and delete components that are inside out, from outside in: deleted components do not
+   * count for those inside. A cavity must lie inside other components, any other component outside.
+   * A cut can make a component of zero size that is inside out and would grow without limit. If any
+   * is deleted, label again.
+   * @return whether any was deleted
    */
   bool DeleteInsideOut(SurfaceState& state, Executor& executor);
 
 private:
-  std::vector<int> Roots; ///< By label: its smallest vertex.
-  std::vector<int> Sizes; ///< By label: its vertices at the labelling.
+  std::vector<int> Roots; ///< By label: smallest vertex.
+  std::vector<int> Sizes; ///< By label: number of vertices.
   EditCounts Edits;       ///< Since the labelling.
 };
 }

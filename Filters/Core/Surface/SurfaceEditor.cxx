@@ -17,7 +17,7 @@ namespace
 {
 /** Least cosine between the normals of a face before and after an edit: 45 degrees. */
 constexpr double SmoothCosine = 0.7;
-/** The same where an edit only must not flip a face's orientation, with some to spare. */
+/** The same if an edit must only keep the orientation of a face, with a margin. */
 constexpr double LooseCosine = 0.1;
 
 double LeastCosine(EditTolerance tolerance)
@@ -32,19 +32,19 @@ Vector FaceNormal(const SurfaceMesh& mesh, int a, int b, int c)
 }
 }
 
-void SurfaceEditor::Touch(int v)
+void SurfaceEditor::MarkChanged(int v)
 {
   this->Log.push_back(v);
   this->State.Activate(v);
 }
 
-void SurfaceEditor::TouchStar(int v)
+void SurfaceEditor::MarkStarChanged(int v)
 {
-  this->Touch(v);
+  this->MarkChanged(v);
   const Ring& ring = this->State.Mesh.Rings[v];
   for (int i = 0; i < ring.Count; ++i)
   {
-    this->Touch(ring.Item[i]);
+    this->MarkChanged(ring.Item[i]);
   }
 }
 
@@ -61,29 +61,30 @@ std::vector<int> SurfaceEditor::TakeChanged()
 
 bool SurfaceEditor::MayEdit(std::initializer_list<int> vertices) const
 {
-  return !this->Share ||
+  return !this->Context ||
     std::all_of(vertices.begin(), vertices.end(),
-      [this](int v) { return this->Share->Region.Contains(this->State.Mesh.Position[v]); });
+      [this](int v) { return this->Context->Region.Contains(this->State.Mesh.Position[v]); });
 }
 
 void SurfaceEditor::AddToEulerCharacteristic(int change)
 {
-  (this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic) += change;
+  (this->Context ? this->Context->EulerCharacteristic : this->State.EulerCharacteristic) += change;
 }
 
 Edit SurfaceEditor::Split(int u, int v)
 {
   SurfaceState& s = this->State;
   const EdgeSplit split{ u, v };
-  if (!this->MayEdit({ u }) || !split.IsLegal(s.Mesh) || !this->HasRoom(1))
+  if (!this->MayEdit({ u }) || !split.IsLegal(s.Mesh) || !this->HasSlots(1))
   {
     return {};
   }
   const std::size_t first = this->Log.size();
-  const int m = split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Room());
+  const int m =
+    split.Apply(s.Mesh, (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f, this->Slots());
   s.AddVertex(m, u);
   s.Velocity[m] = (s.Velocity[u] + s.Velocity[v]) * 0.5f;
-  // What is not being moved has an old one.
+  // Only vertices being moved have a valid previous position.
   const auto before = [&s](int w)
   { return s.Marks[w] & IsWorking ? s.PreviousPosition[w] : s.Mesh.Position[w]; };
   s.PreviousPosition[m] = (before(u) + before(v)) * 0.5f;
@@ -91,7 +92,7 @@ Edit SurfaceEditor::Split(int u, int v)
   s.FieldValue[m] = 0.5f * (s.FieldValue[u] + s.FieldValue[v]);
   s.Size[m] = s.Sizing.OfEdge(u, v);
   ++this->Counts().Splits;
-  this->TouchStar(m);
+  this->MarkStarChanged(m);
   return this->Done(first, m);
 }
 
@@ -144,21 +145,20 @@ Edit SurfaceEditor::CollapseInto(
   const std::size_t first = this->Log.size();
   if (s.Sizing.IsGraded())
   {
-    // As on the edge there; else sizes would be steeper than the gradation, about an end that
-    // moves.
+    // Interpolate along the edge, to keep the gradation if an end moves.
     const float toKept = Length(position - s.Mesh.Position[kept]);
     const float toRemoved = Length(position - s.Mesh.Position[removed]);
     const float length = toKept + toRemoved;
-    const float share = length > 0.f ? toRemoved / length : 1.f;
-    s.Size[kept] = s.Sizing.At(kept) * share + s.Sizing.At(removed) * (1.f - share);
+    const float weight = length > 0.f ? toRemoved / length : 1.f;
+    s.Size[kept] = s.Sizing.At(kept) * weight + s.Sizing.At(removed) * (1.f - weight);
   }
   s.RemoveVertex(removed);
-  EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Room());
+  EdgeCollapse{ kept, removed }.Apply(s.Mesh, this->Slots());
   s.Velocity[kept] = (s.Velocity[kept] + s.Velocity[removed]) * 0.5f;
   s.NearOthers[kept] |= s.NearOthers[removed];
   s.MoveTo(kept, position);
   ++this->Counts().Collapses;
-  this->TouchStar(kept);
+  this->MarkStarChanged(kept);
   return this->Done(first);
 }
 
@@ -200,7 +200,7 @@ bool SurfaceEditor::StaysSmooth(
   const Vector newB(Normalized(AreaNormal(second)));
   const Vector mean = Normalized(oldA + oldB);
   constexpr float least = static_cast<float>(SmoothCosine);
-  // Slivers have normals that say little; what counts is that the new pair is smooth.
+  // Only the new pair must be smooth: normals of slivers are unreliable.
   return Dot(newA, newB) >= least && Dot(newA, mean) >= least && Dot(newB, mean) >= least;
 }
 
@@ -239,7 +239,7 @@ Edit SurfaceEditor::Flip(int u, int v, EditTolerance tolerance)
   for (int w : { u, v, flip.A, flip.B })
   {
     this->Log.push_back(w);
-    if (!smooth) // Else hardly anything has changed: no reason to activate anyone.
+    if (!smooth) // A smooth flip hardly changes the surface.
     {
       s.Activate(w);
     }
@@ -263,11 +263,11 @@ Edit SurfaceEditor::Remove(int v)
   }
   const std::size_t first = this->Log.size();
   s.RemoveVertex(v);
-  removal.Apply(s.Mesh, this->Room());
+  removal.Apply(s.Mesh, this->Slots());
   ++this->Counts().Collapses;
   for (int i = 0; i < 3; ++i)
   {
-    this->Touch(ring.Item[i]);
+    this->MarkChanged(ring.Item[i]);
   }
   return this->Done(first);
 }
@@ -286,7 +286,7 @@ Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
     const MeshTriangle old = TriangleOf(s.Mesh, v, ring.Item[i], ring.Next(i));
     MeshTriangle face = old;
     face.Corner[0] = VectorD(position);
-    // What is too long already may stay so if it gets shorter.
+    // An edge that is too long may stay so if it gets shorter.
     const Vector& end = s.Mesh.Position[ring.Item[i]];
     const float squared = SquaredDistance(position, end);
     const float longest = s.Sizing.LongestEdge(v, ring.Item[i]);
@@ -304,7 +304,7 @@ Edit SurfaceEditor::Move(int v, const Vector& position, EditTolerance tolerance)
   }
   const std::size_t first = this->Log.size();
   s.MoveTo(v, position);
-  this->TouchStar(v);
+  this->MarkStarChanged(v);
   return this->Done(first);
 }
 }

@@ -12,19 +12,19 @@
 
 namespace volumic
 {
-/** How much the faces about an edit may turn. */
+/** How far the faces of an edit may turn. */
 enum class EditTolerance
 {
-  Smooth, ///< As little as in regular remeshing: 45 degrees.
-  Loose   ///< Any new face that is verified and does not flip its orientation.
+  Smooth, ///< As in regular remeshing: 45 degrees.
+  Loose   ///< Any new face that is verified and keeps its orientation.
 };
 
-/** What an edit has changed. One that was refused has changed nothing, and is false. */
+/** Result of an edit. A rejected edit changes nothing and converts to false. */
 struct Edit
 {
   bool IsDone = false;
-  int Vertex = -1; ///< The new one of a split.
-  /** Vertices whose ring or position is another one; some may be named twice. */
+  int Vertex = -1; ///< New vertex of a split.
+  /** Vertices whose ring or position has changed, with duplicates. */
   struct Vertices
   {
     const int* First = nullptr; ///< Valid until the next edit.
@@ -36,60 +36,57 @@ struct Edit
   explicit operator bool() const { return this->IsDone; }
 };
 
-/** What an editor has to itself where others are at work elsewhere: see SurfaceBlocks. */
-struct EditShare
+/** Data of an editor whose edits run while other threads edit elsewhere, see SurfaceBlocks. */
+struct EditContext
 {
-  Box Region;        ///< The vertices whose stars are edited lie in it; others are refused.
-  VertexRoom Room;   ///< For new vertices; edits that find too little of it are refused.
-  EditCounts Counts; ///< Of the edits of the visit.
-  int EulerCharacteristic = 0; ///< What its edits have added to that of the surface.
+  Box Region;                  ///< Edits of stars with vertices outside are rejected.
+  VertexSlots Slots;           ///< For new vertices. An edit that finds too few is rejected.
+  EditCounts Counts;           ///< Counters of the edits of the pass.
+  int EulerCharacteristic = 0; ///< Sum of the changes of chi.
 };
 
 /**
- * Verified edits of the live surface: each checks the mesh (manifold), the constraints (lengths,
- * normals that turn little) and, by conservative tests of the faces that it would make, that none
- * will intersect another; only then it edits and keeps grid, properties, chi and counts in step. A split
- * changes no geometry and needs no test.
- * Sequential, in the order called; others may edit elsewhere at the same time, see EditShare.
+ * Verified edits of the live surface. An edit is made only if the mesh remains manifold, the
+ * constraints on lengths and normals hold, and conservative tests find no intersection with its new
+ * faces. Grid, properties, chi and counters are updated. A split needs no test, as it does not
+ * change the geometry. Edits are sequential; other threads may edit elsewhere, see EditContext.
  */
 class SurfaceEditor
 {
 public:
-  /** @param share null: nobody else edits; counts go to the state, new vertices follow the last
-   * one. */
-  explicit SurfaceEditor(SurfaceState& state, EditShare* share = nullptr)
-    : State(state), Share(share)
+  /** @param context null: no other thread edits, and the state has counters and free slots */
+  explicit SurfaceEditor(SurfaceState& state, EditContext* context = nullptr)
+    : State(state), Context(context)
   {
   }
 
-  /** Splits an edge at its midpoint; always possible unless a valence is at its limit. */
+  /** Split an edge at its midpoint, unless a valence is at its limit. */
   Edit Split(int u, int v);
-  /** Collapses an edge into its midpoint, or else into one of its ends. */
+  /** Collapse an edge to its midpoint, else to one of its ends. */
   Edit Collapse(int u, int v, EditTolerance tolerance);
-  /** Collapses an edge into a given position. */
+  /** Collapse an edge to a given position. */
   Edit CollapseTo(int u, int v, const Vector& position, EditTolerance tolerance);
   /**
-   * Flips an edge. Smooth: only where the surface is nearly flat and the new edge legal. Loose:
-   * wherever the new faces are well-shaped, to join two vertices that are too near to each other
-   * across a fold.
+   * Flip an edge. Smooth: only if the surface is nearly flat and the new edge is legal. Loose: if
+   * the new faces are well-shaped, to join two vertices that are too near across a fold.
    */
   Edit Flip(int u, int v, EditTolerance tolerance);
-  /** Removes a vertex of valence 3. */
+  /** Remove a vertex of valence 3. */
   Edit Remove(int v);
-  /** Moves a vertex; Smooth: the faces about it turn little. */
+  /** Move a vertex. Smooth: the turn of its faces is limited. */
   Edit Move(int v, const Vector& position, EditTolerance tolerance);
-  /** Merges the stars of two vertices. */
+  /** Merge the stars of two vertices. */
   Edit Merge(int u, int v);
-  /** Cuts the surface along the 3-cycle u, v, w, and draws both sides apart. */
+  /** Cut the surface along the 3-cycle u, v, w, and separate both sides. */
   Edit Cut(int u, int v, int w);
 
-  /** That of the surface; within a visit only what the visit's edits have added to it. */
+  /** Return chi of the surface, or within a pass the change of chi by its edits. */
   int EulerCharacteristic() const
   {
-    return this->Share ? this->Share->EulerCharacteristic : this->State.EulerCharacteristic;
+    return this->Context ? this->Context->EulerCharacteristic : this->State.EulerCharacteristic;
   }
 
-  /** Changed vertices of all edits since TakeChanged(), in order; some may be named often. */
+  /** Return the changed vertices of all edits since TakeChanged(), in order, with duplicates. */
   const std::vector<int>& Changed() const { return this->Log; }
   std::vector<int> TakeChanged();
 
@@ -98,20 +95,20 @@ private:
   bool AddFacesAfterCollapse(
     int end, int kept, int removed, const Vector& position, EditTolerance tolerance);
   bool StaysSmooth(int u, int v, const MeshTriangle& first, const MeshTriangle& second) const;
-  /** Notes that v has changed; forces act on it again. */
-  void Touch(int v);
-  void TouchStar(int v);
+  /** Record a change of v and activate it. */
+  void MarkChanged(int v);
+  void MarkStarChanged(int v);
   Edit Done(std::size_t firstChange, int vertex = -1) const;
-  /** Whether the stars of these vertices may be edited. */
+  /** Return whether the stars of these vertices may be edited. */
   bool MayEdit(std::initializer_list<int> vertices) const;
-  bool HasRoom(int n) const { return !this->Share || this->Share->Room.Has(n); }
-  VertexRoom* Room() { return this->Share ? &this->Share->Room : nullptr; }
-  EditCounts& Counts() { return this->Share ? this->Share->Counts : this->State.Counts; }
+  bool HasSlots(int n) const { return !this->Context || this->Context->Slots.Has(n); }
+  VertexSlots* Slots() { return this->Context ? &this->Context->Slots : nullptr; }
+  EditCounts& Counts() { return this->Context ? this->Context->Counts : this->State.Counts; }
   void AddToEulerCharacteristic(int change);
 
   SurfaceState& State;
-  EditShare* Share;
-  std::vector<MeshTriangle> Faces; ///< New ones of the edit that is being tried.
+  EditContext* Context;
+  std::vector<MeshTriangle> Faces; ///< New faces of the present edit.
   std::vector<int> Log;
 };
 }

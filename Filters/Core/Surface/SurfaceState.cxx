@@ -13,7 +13,7 @@ namespace volumic
 {
 namespace
 {
-/** Vertices that one thread looks at at a time: 20 microseconds. */
+/** Vertices per task: 20 microseconds. */
 constexpr std::size_t ShapeGrain = 128;
 constexpr std::size_t AliveGrain = 1 << 14;
 }
@@ -29,7 +29,7 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->Properties.Reset(this->Mesh.Rings.size(), executor);
   this->PreviousPosition.Assign(this->Mesh.Position);
   this->Anchor.Assign(this->Mesh.Position);
-  this->Grid.Reset(low, high, this->Sizing.SmallestReach());
+  this->Grid.Reset(low, high, this->Sizing.SmallestSearchRadius());
   this->Grid.InsertAll(
     this->Mesh.Position, 0, [this](int v) { return this->Mesh.IsAlive(v); }, executor);
   executor.For(static_cast<std::size_t>(this->Mesh.Size()), AliveGrain,
@@ -43,34 +43,34 @@ void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& execut
   this->EulerCharacteristic = this->Mesh.CountEulerCharacteristic(executor);
 }
 
-void SurfaceState::ForgetMotion()
+void SurfaceState::ReleaseMotion()
 {
   for (VertexProperty<Vector>* property : { &this->Velocity, &this->PreviousPosition, &this->Anchor,
          &this->Laplacian, &this->SpringPull })
   {
-    property->Forget();
+    property->Release();
   }
   for (VertexProperty<float>* property :
-    { &this->FieldValue, &this->Displacement, &this->Drift, &this->Slack })
+    { &this->FieldValue, &this->Displacement, &this->MotionSinceTest, &this->ClearanceAtTest })
   {
-    property->Forget();
+    property->Release();
   }
 }
 
 void SurfaceState::Reorder(
-  const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+  const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor)
 {
-  // What means nothing between visits lends its memory.
-  const auto swapSpares = [&]
+  // Properties that are used only within passes serve as buffers.
+  const auto swapBuffers = [&]
   {
-    this->PreviousPosition.AsVector().swap(spares.Spare<Vector>::Values);
-    this->Displacement.AsVector().swap(spares.Spare<float>::Values);
-    this->Marks.AsVector().swap(spares.Spare<std::uint8_t>::Values);
+    this->PreviousPosition.AsVector().swap(buffers.ReorderBuffer<Vector>::Values);
+    this->Displacement.AsVector().swap(buffers.ReorderBuffer<float>::Values);
+    this->Marks.AsVector().swap(buffers.ReorderBuffer<std::uint8_t>::Values);
   };
-  swapSpares();
-  this->Mesh.Reorder(order, spares, executor);
-  this->Properties.Reorder(order, spares, executor);
-  swapSpares();
+  swapBuffers();
+  this->Mesh.Reorder(order, buffers, executor);
+  this->Properties.Reorder(order, buffers, executor);
+  swapBuffers();
   this->PreviousPosition.Reset(order.size());
   this->Displacement.Reset(order.size());
   this->Marks.Reset(order.size());
@@ -149,9 +149,9 @@ void SurfaceState::UpdateShape(int v)
   flags |= huge & star.All() ? HasHugeEdge : 0;
   flags |= star.IsDelaunay() ? 0 : IsNotDelaunay;
   this->Normal[v] = star.Cone();
-  const float share = 1.f / static_cast<float>(star.Count);
-  this->Laplacian[v] = star.Edge.Sum(star.Count) * share;
-  this->Laplacian[v].Padding = share;
+  const float weight = 1.f / static_cast<float>(star.Count);
+  this->Laplacian[v] = star.Edge.Sum(star.Count) * weight;
+  this->Laplacian[v].Padding = weight;
   this->SpringPull[v] = pull.Sum(star.Count);
   this->EdgeLengthSum[v] = edges;
   this->RemeshFlags[v] = flags;
@@ -172,9 +172,9 @@ void SurfaceState::UpdateShape(const std::vector<int>& vertices, Executor& execu
     });
 }
 
-SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexRoom* room)
+SurfaceState::RemovedComponent SurfaceState::EraseComponent(int v, VertexSlots* slots)
 {
-  // The ring of a removed vertex is kept aside as it is emptied; -1 in Component marks visits.
+  // The ring is copied, as removal empties it. Component is -1 for visited vertices.
   std::vector<int> stack(1, v);
   std::int64_t ends = 0;
   this->Component[v] = -1;
@@ -195,16 +195,16 @@ SurfaceState::RemovedComponent SurfaceState::TakeComponentAway(int v, VertexRoom
   for (const int w : stack)
   {
     this->RemoveVertex(w);
-    this->Mesh.RemoveVertex(w, room);
+    this->Mesh.RemoveVertex(w, slots);
   }
-  // V - E + F with 2 E = 3 F, which is the sum of the valences.
+  // V - E + F with 2 E = 3 F, where 2 E is the sum of the valences.
   const int vertices = static_cast<int>(stack.size());
   return { vertices, vertices - static_cast<int>(ends / 6) };
 }
 
 int SurfaceState::RemoveComponent(int v)
 {
-  const RemovedComponent removed = this->TakeComponentAway(v, nullptr);
+  const RemovedComponent removed = this->EraseComponent(v, nullptr);
   this->EulerCharacteristic -= removed.EulerCharacteristic;
   ++this->Counts.Removed;
   return removed.Vertices;

@@ -16,7 +16,7 @@
 
 namespace volumic
 {
-/** What has been done to the connectivity since it was last reset. */
+/** Counters of edits since the last reset. */
 struct EditCounts
 {
   int Merges = 0;
@@ -24,14 +24,13 @@ struct EditCounts
   int Splits = 0;
   int Collapses = 0;
   int Flips = 0;
-  int Removed = 0; ///< Components deleted.
+  int Removed = 0; ///< Deleted components.
 
   EditCounts operator-(const EditCounts& less) const
   {
     EditCounts counts = less;
-    for (int EditCounts::*count :
-      { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits, &EditCounts::Collapses,
-        &EditCounts::Flips, &EditCounts::Removed })
+    for (int EditCounts::*count : { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits,
+           &EditCounts::Collapses, &EditCounts::Flips, &EditCounts::Removed })
     {
       counts.*count = this->*count - less.*count;
     }
@@ -50,23 +49,23 @@ struct EditCounts
 };
 
 /**
- * Sum of the cotangents of the two angles opposite to an edge from which on it is flipped. Those of
- * a Delaunay edge add up to 0 or more; a little less, so that no flip is undone by the next.
+ * An edge is flipped if the sum of the cotangents of its two opposite angles is less. The sum is at
+ * least 0 for a Delaunay edge. The tolerance prevents the next pass from undoing a flip.
  */
 constexpr float LeastCotangentSum = -0.05f;
 
 /**
- * An edge that is this many times as long as the longest legal one keeps its ends still until it is
- * split, so that what a visit reads and writes is bounded (SurfaceBlocks).
+ * The ends of an edge this many times as long as the longest legal one do not move until it is
+ * split. This bounds what a block pass reads and writes (SurfaceBlocks).
  */
 constexpr float HugeEdge = 1.4f;
 /**
- * How many times as long as the longest legal edge an edge may be that a merge makes between two
- * rims: between sharp ones they are long. The remesher splits them.
+ * Longest bridge edge of a merge, in longest legal edges. Between sharp links bridge edges are
+ * long. The remesher splits them.
  */
 constexpr float LongestBridgeEdge = 1.6f;
 
-/** What a vertex may need of the remesher. */
+/** Reasons to remesh at a vertex. */
 enum RemeshFlag : std::uint8_t
 {
   HasLongEdge = 1,   ///< An edge is longer than eq. (1) allows.
@@ -75,137 +74,134 @@ enum RemeshFlag : std::uint8_t
   HasHugeEdge = 8    ///< An edge is longer than HugeEdge times the longest legal one.
 };
 
-/** What the steps of a visit note about a vertex for each other; no bit is set between visits. */
+/** Temporary marks that the steps of a block pass share. All bits are 0 between passes. */
 enum VertexMark : std::uint8_t
 {
-  IsWorking = 1, ///< SurfaceIteration: it may have moved, or a neighbour has.
-  IsListed = 2,  ///< Proximity: it is being examined.
+  IsWorking = 1, ///< SurfaceIteration: it, or a neighbour, may have moved.
+  IsListed = 2,  ///< Proximity: it is being tested.
   HasMoved = 4,  ///< Dynamics: it has moved visibly.
   IsMoving = 32, ///< Dynamics: it is about to move.
-  IsSeen = 8,    ///< ComponentWatch: it has been looked at.
-  IsOfLarge = 16 ///< ComponentWatch: it was looked at, and its component is not small.
+  IsSeen = 8,    ///< ComponentWatch: it has been tested.
+  IsOfLarge = 16 ///< ComponentWatch: its component is not small.
 };
 
 /**
- * The live surface: mesh, grid of its vertices, and what each of these knows. Its vertex properties
- * are registered once, below, and resized together. Who may change what: the mesh and its grid,
- * SurfaceEditor (Dynamics and the roll back move vertices); a property: who is named above it.
+ * Live surface: mesh, grid of its vertices, and vertex properties, which are registered below and
+ * resized together. SurfaceEditor changes mesh and grid; Dynamics and the rollback also move
+ * vertices. The comment above a group of properties names the classes that change it.
  */
 class SurfaceState
 {
-  VertexProperties Properties; // Must be made before those that register there.
+  VertexProperties Properties; // Must be constructed before the properties.
 
 public:
   SurfaceMesh Mesh;
   VertexGrid Grid;
   SizingField Sizing;
-  ImageMargin Margin;          ///< Of the level: no vertex is moved further out.
-  int EulerCharacteristic = 0; ///< Kept by the edits; tests hold it against a count.
-  EditCounts Counts;           ///< Of edits that no visit (EditShare) keeps for itself.
+  ImageMargin Margin;          ///< Of the level: no vertex moves further out.
+  int EulerCharacteristic = 0; ///< Maintained by the edits.
+  EditCounts Counts;           ///< Edits outside block passes, see EditContext.
 
-  // Motion: Dynamics. An edit gives a vertex the mean of those that it comes of.
+  // Motion: Dynamics. An edit assigns the mean of the old vertices.
   VertexProperty<Vector> Velocity{ this->Properties, Vector() };
-  /** Its place before the last displacement, when the surface was free of intersections. */
+  /** Position before the last displacement, free of intersections. */
   VertexProperty<Vector> PreviousPosition{ this->Properties, Vector() };
-  VertexProperty<Vector> Anchor{ this->Properties, Vector() }; ///< Where it last was seen to move.
-  VertexProperty<float> FieldValue{ this->Properties, 0.f };   ///< When last evaluated.
+  VertexProperty<Vector> Anchor{ this->Properties, Vector() };      ///< At its last visible motion.
+  VertexProperty<float> FieldValue{ this->Properties, 0.f };        ///< When last evaluated.
   VertexProperty<float> Displacement{ this->Properties, 0.f, 0.f }; ///< Length, in this iteration.
 
-  // Rest: Dynamics, the roll back, and edits, by Activate().
-  /** Forces act on it; 0: motionless. */
+  // Convergence: Dynamics, the rollback, and edits by Activate().
+  /** 1: forces act on it; 0: converged. */
   VertexProperty<std::uint8_t> Active{ this->Properties, 1, 1 };
-  /** Active before the regularisation, or off the isopotential before a revision, or made by them.
-   */
+  /** Active before the regularisation, or off the isosurface before a refit, or made by them. */
   VertexProperty<std::uint8_t> WasActive{ this->Properties, 1, 1 };
-  /** Iterations since it has moved visibly. */
-  VertexProperty<std::uint8_t> RestCount{ this->Properties, 0, 0 };
-  /** Grows with each roll back, shrinks otherwise. */
+  /** Iterations since its last visible motion. */
+  VertexProperty<std::uint8_t> ConvergedIterations{ this->Properties, 0, 0 };
+  /** Increases with each rollback, decreases otherwise. */
   VertexProperty<std::uint8_t> RollbackCount{ this->Properties, 0, 0 };
-  /** Edited or rolled back since the regularisation has cleared it. */
+  /** Edited or rolled back since the start of the regularisation. */
   VertexProperty<std::uint8_t> Disturbed{ this->Properties, 0, 1 };
 
   // Shape: UpdateShape().
   VertexProperty<NormalCone> Normal{ this->Properties, NormalCone() };
-  /** Barycentre of the neighbours minus position; as Padding the share of each of them in it. */
+  /** Barycentre of the neighbours minus position. Padding holds the weight of each neighbour. */
   VertexProperty<Vector> Laplacian{ this->Properties, Vector(), Vector() };
   VertexProperty<Vector> SpringPull{ this->Properties, Vector() }; ///< Sum over its edges.
   VertexProperty<float> EdgeLengthSum{ this->Properties, 0.f, 0.f };
   VertexProperty<std::uint8_t> RemeshFlags{ this->Properties, 0, 0 }; ///< Bits of RemeshFlag.
 
   // Proximity.
-  /** How far its star has moved since it was last examined; NotExamined: it must be examined. */
-  VertexProperty<float> Drift{ this->Properties, NotExamined, NotExamined };
-  VertexProperty<float> Slack{ this->Properties, 0.f, 0.f }; ///< The room it had then: Proximity.
-  /** Whether another iteration like the last one would use up little of that room. */
+  /** Motion of its star since its last test; NeverTested: must be tested. */
+  VertexProperty<float> MotionSinceTest{ this->Properties, NeverTested, NeverTested };
+  VertexProperty<float> ClearanceAtTest{ this->Properties, 0.f, 0.f };
+  /** Whether an iteration like the last one would use up little of the clearance. */
   VertexProperty<std::uint8_t> IsSlow{ this->Properties, 1, 0 };
-  /** Something that is not the smooth surface about it lies within reach. */
+  /** A part of the surface with opposed normals lies within the search radius. */
   VertexProperty<std::uint8_t> NearOthers{ this->Properties, 1 };
 
-  // Grading: GradedSizes. Where an edge is split, or collapsed, its point gets the size there.
-  /** delta about it, workspace, where the surface is graded: see SizingField. */
+  // Grading: GradedSizes. A split or a collapse interpolates it.
+  /** delta of a graded surface, in the computational space, see SizingField. */
   VertexProperty<float> Size{ this->Properties, 0.f };
 
   VertexProperty<std::uint8_t> Marks{ this->Properties, 0, 0 }; ///< Bits of VertexMark.
 
   VertexProperty<int> Component{ this->Properties, Unlabelled }; ///< ComponentWatch.
 
-  static constexpr int Unlabelled = 1 << 30; ///< More than any label of SurfaceComponents.
-  static constexpr float NotExamined = 1e6f; ///< More than any slack.
+  static constexpr int Unlabelled = 1 << 30; ///< Greater than any label of SurfaceComponents.
+  static constexpr float NeverTested = 1e6f; ///< Greater than any clearance.
 
-  /** Lets go of all that only iterations need: a reset must come before others. */
-  void ForgetMotion();
-  /** Resets all properties to those of a mesh that is new, lays the grid over the box. */
+  /** Release what only iterations need. Call Reset() before the next iterations. */
+  void ReleaseMotion();
+  /** Reset all properties to those of a new mesh and cover the box with the grid. */
   void Reset(const Vector& low, const Vector& high, Executor& executor);
   void Reset(const Vector& low, const Vector& high);
 
   /**
-   * SurfaceMesh::Reorder, with all that is known of the vertices. Values that are only of use while
-   * a block is visited are reset: their memory is that of the copies.
+   * Reorder the mesh, see SurfaceMesh::Reorder, and all vertex properties. Properties used only
+   * within a block pass are reset: their memory serves as buffers.
    */
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor);
-  /** Adds a closed surface. Its vertices follow the last ones, as after Reset(), with their shapes.
-   */
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor);
+  /** Append a closed surface, with properties as after Reset(), and compute its shapes. */
   void Append(const IndexedSurface& surface, Executor& executor);
 
-  /** After v has been added to the mesh, next to, or as a copy of, its parent. */
+  /** Call it after v has been added to the mesh next to, or as a copy of, its parent. */
   void AddVertex(int v, int parent);
-  /** Before v is removed from the mesh. */
+  /** Call it before v is removed from the mesh. */
   void RemoveVertex(int v);
   void MoveTo(int v, const Vector& position)
   {
     this->Mesh.Position[v] = position;
     this->Grid.Move(v, position);
   }
-  /** Something about v has changed: forces act on it again. */
+  /** Call it after a change at v: forces act on it again. */
   void Activate(int v)
   {
     this->Active[v] = 1;
-    this->RestCount[v] = 0;
+    this->ConvergedIterations[v] = 0;
     this->Disturbed[v] = 1;
   }
 
-  /** Normal, cone, internal forces and remesh flags, from the positions as they are. */
+  /** Compute normal, cone, internal forces and remesh flags from the positions. */
   void UpdateShape(const std::vector<int>& vertices, Executor& executor);
   void UpdateShape(int v);
 
-  /** What removing a component has changed. */
+  /** Changes made by the removal of a component. */
   struct RemovedComponent
   {
     int Vertices = 0;
     int EulerCharacteristic = 0;
   };
   /**
-   * Deletes the whole component of a vertex; the caller keeps the books.
-   * @param room of the visit; null: nothing else is at work
+   * Delete the component of a vertex. The caller updates the counters.
+   * @param slots of the block pass; null: no other thread edits
    */
-  RemovedComponent TakeComponentAway(int v, VertexRoom* room);
-  /** The same where nothing else is at work: counts and chi are kept. @return the vertices removed.
-   */
+  RemovedComponent EraseComponent(int v, VertexSlots* slots);
+  /** Delete the component of a vertex and update the counters. Return the number of vertices. */
   int RemoveComponent(int v);
 
   /**
-   * False where the normals of the faces about v and w all lie in a common cone, so that none of
-   * the faces of one can be what a face of the other meets first. v == w asks about its own star.
+   * Return false if the normals of all faces at v and w lie in a common cone: no face of one can
+   * then be the first that a face of the other meets. v == w tests one star.
    */
   bool AreOpposed(int v, int w) const
   {

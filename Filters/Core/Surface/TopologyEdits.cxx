@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The edits of SurfaceEditor that change the topology: the merge and the cut.
+// The edits of SurfaceEditor that change the topology: merge and cut.
 
 #include "Core/Mesh/CycleCut.h"
 #include "Core/Mesh/StarMerge.h"
@@ -17,27 +17,27 @@ namespace volumic
 {
 namespace
 {
-/** How far each copy of a cut's corners goes towards the rest of its star, of the way there. */
-constexpr float DrawnApart = 0.25f;
+/** Move of each corner of a cut, as a fraction of the way to the mean of its other neighbours. */
+constexpr float SeparationFraction = 0.25f;
 
-/** A cut that can be undone, as long as nothing else has been edited. */
-class TriedCut
+/** A cut that can be undone until the next edit. */
+class TentativeCut
 {
 public:
-  TriedCut(SurfaceState& state, const CycleCut& cut, VertexRoom* room)
-    : State(state), Room(room), Corner{ cut.A, cut.B, cut.C }
+  TentativeCut(SurfaceState& state, const CycleCut& cut, VertexSlots* slots)
+    : State(state), Slots(slots), Corner{ cut.A, cut.B, cut.C }
   {
     for (int k = 0; k < 3; ++k)
     {
       const Ring& ring = state.Mesh.Rings[this->Corner[k]];
-      this->Place[k] = state.Mesh.Position[this->Corner[k]];
+      this->OldPosition[k] = state.Mesh.Position[this->Corner[k]];
       this->Saved.emplace_back(this->Corner[k], ring);
       for (int i = 0; i < ring.Count; ++i)
       {
         this->Saved.emplace_back(ring.Item[i], state.Mesh.Rings[ring.Item[i]]);
       }
     }
-    const std::array<int, 3> copy = cut.Apply(state.Mesh, room);
+    const std::array<int, 3> copy = cut.Apply(state.Mesh, slots);
     for (int k = 0; k < 3; ++k)
     {
       state.AddVertex(copy[k], this->Corner[k]);
@@ -46,11 +46,11 @@ public:
     this->All = { cut.A, cut.B, cut.C, copy[0], copy[1], copy[2] };
   }
 
-  /** The corners of one side, then those of the other. */
+  /** Return the corners of one side, then those of the other. */
   const std::array<int, 6>& Corners() const { return this->All; }
 
-  /** Each corner goes a little towards the rest of its own star. */
-  void DrawApart()
+  /** Move each corner towards the rest of its star. */
+  void Separate()
   {
     const SurfaceMesh& mesh = this->State.Mesh;
     for (int n = 0; n < 6; ++n)
@@ -69,12 +69,12 @@ public:
         }
       }
       const Vector mean = sum * (1.f / static_cast<float>(std::max(count, 1)));
-      const Vector& place = this->Place[n % 3];
-      this->State.MoveTo(this->All[n], place + (mean - place) * DrawnApart);
+      const Vector& old = this->OldPosition[n % 3];
+      this->State.MoveTo(this->All[n], old + (mean - old) * SeparationFraction);
     }
   }
 
-  /** Adds the faces about all corners. */
+  /** Append the faces of all corners. */
   void AddFaces(std::vector<MeshTriangle>& faces) const
   {
     const SurfaceMesh& mesh = this->State.Mesh;
@@ -82,7 +82,7 @@ public:
     {
       const int* side = &this->All[n / 3 * 3];
       const int* own = &this->All[n];
-      // A face with several corners of the side is taken from the first of them only.
+      // Take a face with several corners of the side from the first of them only.
       const auto isEarlier = [&](int y) { return std::find(side, own, y) != own; };
       const Ring& ring = mesh.Rings[*own];
       for (int i = 0; i < ring.Count; ++i)
@@ -103,11 +103,11 @@ public:
     for (int k = 3; k < 6; ++k)
     {
       this->State.RemoveVertex(this->All[k]);
-      mesh.RemoveVertex(this->All[k], this->Room);
+      mesh.RemoveVertex(this->All[k], this->Slots);
     }
-    if (this->Room)
+    if (this->Slots)
     {
-      this->Room->Next -= 3; // Tried often, it would take all of it.
+      this->Slots->Next -= 3; // Rejected cuts would use up all slots.
     }
     for (const auto& entry : this->Saved)
     {
@@ -115,17 +115,17 @@ public:
     }
     for (int k = 0; k < 3; ++k)
     {
-      this->State.MoveTo(this->Corner[k], this->Place[k]);
+      this->State.MoveTo(this->Corner[k], this->OldPosition[k]);
     }
   }
 
 private:
   SurfaceState& State;
-  VertexRoom* Room;
+  VertexSlots* Slots;
   std::array<int, 3> Corner;
-  Vector Place[3];
+  Vector OldPosition[3];
   std::array<int, 6> All;
-  std::vector<std::pair<int, Ring>> Saved; ///< All that the cut writes to.
+  std::vector<std::pair<int, Ring>> Saved; ///< All rings that the cut changes.
 };
 }
 
@@ -157,14 +157,14 @@ Edit SurfaceEditor::Merge(int u, int v)
   const std::size_t first = this->Log.size();
   s.RemoveVertex(u);
   s.RemoveVertex(v);
-  merge.Apply(s.Mesh, this->Room());
+  merge.Apply(s.Mesh, this->Slots());
   this->AddToEulerCharacteristic(-2);
   ++this->Counts().Merges;
   for (const auto& t : merge.Strip())
   {
     for (int w : t)
     {
-      this->Touch(w);
+      this->MarkChanged(w);
       s.NearOthers[w] = 1;
     }
   }
@@ -175,27 +175,27 @@ Edit SurfaceEditor::Cut(int u, int v, int w)
 {
   SurfaceState& s = this->State;
   const CycleCut cut{ u, v, w };
-  if (!this->MayEdit({ u, v, w }) || !cut.IsLegal(s.Mesh) || !this->HasRoom(3))
+  if (!this->MayEdit({ u, v, w }) || !cut.IsLegal(s.Mesh) || !this->HasSlots(3))
   {
     return {};
   }
-  TriedCut tried(s, cut, this->Room());
-  tried.DrawApart();
+  TentativeCut tentative(s, cut, this->Slots());
+  tentative.Separate();
   this->Faces.clear();
-  tried.AddFaces(this->Faces);
-  const RemovedFaces removed = { tried.Corners(), 6, false };
+  tentative.AddFaces(this->Faces);
+  const RemovedFaces removed = { tentative.Corners(), 6, false };
   if (!std::all_of(this->Faces.begin(), this->Faces.end(), IsWellShaped) ||
     NewFacesIntersect(s, this->Faces, removed))
   {
-    tried.Undo();
+    tentative.Undo();
     return {};
   }
   const std::size_t first = this->Log.size();
   this->AddToEulerCharacteristic(2);
   ++this->Counts().Cuts;
-  for (int x : tried.Corners())
+  for (int x : tentative.Corners())
   {
-    this->TouchStar(x);
+    this->MarkStarChanged(x);
   }
   return this->Done(first);
 }

@@ -15,27 +15,27 @@
 
 namespace volumic
 {
-/** What VertexProperties knows of each of its properties. */
+/** Interface of a vertex property for VertexProperties. */
 class VertexPropertyBase
 {
 public:
   virtual ~VertexPropertyBase() = default;
-  /** Forgets all values: n vertices, each with the initial one. */
+  /** Assign the initial value to n vertices. */
   virtual void Reset(std::size_t n) = 0;
-  /** Has values for indices below n; those that are new have the initial one. */
+  /** Resize to indices below n. New values are the initial one. */
   virtual void Resize(std::size_t n) = 0;
-  /** Forgets all values, and has none until it is reset. */
-  virtual void Forget() = 0;
-  /** See SurfaceMesh::Reorder; where there is no vertex the value is zero. */
+  /** Release the memory until the next Reset(). */
+  virtual void Release() = 0;
+  /** See SurfaceMesh::Reorder. Values of free slots are zero. */
   virtual void Reorder(
-    const std::vector<int>& order, VertexSpares& spares, Executor& executor) = 0;
-  /** A value for a new vertex, `v`, which comes of another one. */
+    const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor) = 0;
+  /** Set the value of a new vertex `v` from that of `parent`, or to that of new vertices. */
   virtual void Add(std::size_t v, std::size_t parent) = 0;
 };
 
 /**
- * The properties of the vertices of a mesh. Each registers itself when it is made; whoever adds a
- * vertex tells it here, and all of them stay in step (as in pmp-library and geometry-central).
+ * Registry of the vertex properties of a mesh, which are resized together, as in pmp-library and
+ * geometry-central. Each property registers itself.
  */
 class VertexProperties
 {
@@ -57,21 +57,21 @@ public:
       property->Resize(n);
     }
   }
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor)
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor)
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Reorder(order, spares, executor);
+      property->Reorder(order, buffers, executor);
     }
   }
-  void Forget()
+  void Release()
   {
     for (VertexPropertyBase* property : this->All)
     {
-      property->Forget();
+      property->Release();
     }
   }
-  /** Threads may do so at the same time where there is room for the vertices. */
+  /** Thread-safe if the properties have slots for the vertices. */
   void Add(int v, int parent)
   {
     for (VertexPropertyBase* property : this->All)
@@ -89,14 +89,14 @@ template <typename T>
 class VertexProperty final : public VertexPropertyBase
 {
 public:
-  /** New vertices inherit their parent's value. */
+  /** Construct a property that new vertices inherit from their parent. */
   VertexProperty(VertexProperties& properties, T initial) : Initial(initial), Inherits(true)
   {
     properties.Register(*this);
   }
-  /** New vertices have a value of their own. */
-  VertexProperty(VertexProperties& properties, T initial, T ofNewVertices)
-    : Initial(initial), OfNewVertices(ofNewVertices), Inherits(false)
+  /** Construct a property with a fixed value for new vertices. */
+  VertexProperty(VertexProperties& properties, T initial, T newValue)
+    : Initial(initial), NewValue(newValue), Inherits(false)
   {
     properties.Register(*this);
   }
@@ -107,8 +107,8 @@ public:
   const T& operator[](std::size_t v) const { return this->Values[v]; }
   std::size_t Size() const { return this->Values.size(); }
   void Fill(const T& value) { std::fill(this->Values.begin(), this->Values.end(), value); }
-  void Assign(const LargeVector<T>& values) { this->Values = values; } ///< As many as there are.
-  LargeVector<T>& AsVector() { return this->Values; }                  ///< Not to be resized.
+  void Assign(const LargeVector<T>& values) { this->Values = values; } ///< The size must match.
+  LargeVector<T>& AsVector() { return this->Values; }                  ///< Must not be resized.
   const LargeVector<T>& AsVector() const { return this->Values; }
 
   void Reset(std::size_t n) override
@@ -117,12 +117,12 @@ public:
     this->Values.assign(n, this->Initial);
   }
   void Resize(std::size_t n) override { Grow(this->Values, n, this->Initial); }
-  void Forget() override { this->Values = {}; }
-  void Reorder(const std::vector<int>& order, VertexSpares& spares, Executor& executor) override
+  void Release() override { this->Values = {}; }
+  void Reorder(const std::vector<int>& order, ReorderBuffers& buffers, Executor& executor) override
   {
     if (!this->Values.empty())
     {
-      volumic::Reorder(this->Values, order, spares, executor);
+      volumic::Reorder(this->Values, order, buffers, executor);
     }
   }
   void Add(std::size_t v, std::size_t parent) override
@@ -131,12 +131,12 @@ public:
     {
       this->Resize(v + 1);
     }
-    this->Values[v] = this->Inherits ? this->Values[parent] : this->OfNewVertices;
+    this->Values[v] = this->Inherits ? this->Values[parent] : this->NewValue;
   }
 
 private:
   T Initial;
-  T OfNewVertices{};
+  T NewValue{};
   bool Inherits;
   LargeVector<T> Values;
 };

@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Readers of volumes. read() returns one Volume or throws one VolumeError of one line.
+"""Readers of volumes. read() returns a Volume or raises a VolumeError with a one-line message.
 
-A reader is a function (path, choice) -> Volume. Its module is imported when a file needs it.
+A reader is a function (path, choice) -> Volume. Its module is imported on first use.
 """
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import VolumeError
 from .grid import one_of_times
-from .volume import Choice, Label, Volume, checked, naming, need_file, unit_of
+from .volume import Choice, Label, Volume, checked, prefix_errors, require_file, unit_of
 
 __all__ = ["Choice", "Label", "SUFFIXES", "Volume", "VolumeError", "checked", "list_files",
            "list_series", "read", "unit_of"]
@@ -34,7 +34,7 @@ SUFFIXES = {suffix: reader for reader, suffixes in {
     "microscopy:read_pictures": ".png .jpg .jpeg .bmp .pgm .ppm .pnm",
     "dicom:read_dicom": ".dcm .dicom .ima",
 }.items() for suffix in suffixes.split()}
-_MARKS = (  # of files whose suffix is another one: place, bytes, reader
+_SIGNATURES = (  # of files with unknown suffix: offset, bytes, reader
     (128, b"DICM", "dicom:read_dicom"), (0, b"NRRD000", "plain:read_nrrd"),
     (0, b"\x93NUMPY", "plain:read_npy"), (0, b"ObjectType", "plain:read_meta_image"),
     (0, b"NDims", "plain:read_meta_image"), (0, b"# vtk DataFile", "vtkfiles:read_by_vtk"),
@@ -48,12 +48,45 @@ _MARKS = (  # of files whose suffix is another one: place, bytes, reader
 
 
 def read(path, **choice):
-    """Return the Volume of a file, a folder, or a pattern such as "slice*.png".
+    """Read a volume or a label map.
 
-    The keywords are the fields of Choice, such as time, component, series, labels."""
+    Parameters
+    ----------
+    path : str or path-like
+        A file, a folder (DICOM, pictures, masks, OME-Zarr), or a pattern such as "slice*.png".
+    series : int or str, optional
+        DICOM series, by number or UID.
+    time : int, optional
+        Index of the volume in a file with several ones.
+    component : int, optional
+        Component of the voxels; -1: magnitude.
+    spacing : sequence of 3 floats, optional
+        Voxel spacing x, y, z that replaces that of the file.
+    raw : str, optional
+        Dimensions and type of a file without header, such as "512,512,400,uint16".
+    labels : bool, optional
+        Read a label map, whose values are never interpolated.
+    resampling : bool, optional
+        Resample irregular grids (default); otherwise they are an error.
+    array : str, optional
+        Name of the array in a VTK or .npz file.
+    layers : bool, optional
+        With labels: store overlapping masks or segments in separate components.
+
+    Returns
+    -------
+    Volume
+        `array` [z, y, x] or [component, z, y, x], with position, unit, labels and warnings. It
+        unpacks to array, spacing, origin, direction, space, unit, names.
+
+    Raises
+    ------
+    VolumeError
+        The file cannot be read. The message states the file, the reason and what to do.
+    """
     path, choice = os.fspath(path), Choice(**choice)
     choice.times = 0
-    with naming(path), warnings.catch_warnings(), np.errstate(all="ignore"):
+    with prefix_errors(path), warnings.catch_warnings(), np.errstate(all="ignore"):
         warnings.simplefilter("ignore")
         _need_files(path)
         volume = _read(path, choice)
@@ -67,18 +100,17 @@ def read(path, **choice):
 
 
 def _read(path, choice):
-    """Return the checked Volume."""
     reader = _reader_of(path, choice)
     if isinstance(reader, str):
         if choice.series is not None and not reader.startswith("dicom"):
-            raise VolumeError("there is no series %s (--series): it is no DICOM" % choice.series)
+            raise VolumeError("there is no series %s (--series); this is not DICOM" % choice.series)
         module, name = reader.split(":")
         reader = getattr(importlib.import_module("." + module, __name__), name)
     return checked(reader(path, choice), choice)
 
 
 def _reader_of(path, choice):
-    """Return the reader, "module:function" or a function, of a file, folder or pattern."""
+    """Return the reader of a path, as "module:function" or a function."""
     if choice.raw:
         return "plain:read_raw"
     if os.path.isfile(path):
@@ -103,13 +135,13 @@ def _reader_of(path, choice):
 
 
 def _suffix_of(path):
-    """Return the longest suffix of SUFFIXES that a name ends in, or ""."""
+    """Return the longest suffix of SUFFIXES that a name ends in; empty if there is none."""
     name = os.path.basename(path).lower()
     return max((s for s in SUFFIXES if name.endswith(s) and name != s), key=len, default="")
 
 
 def _reader_of_file(path):
-    """Return the reader by the suffix, or, of other files, by their first bytes."""
+    """Return the reader of a file by its suffix, otherwise by its first bytes."""
     with open(path, "rb") as stream:
         head = stream.read(352)
     if _is_dicom(path):
@@ -117,12 +149,13 @@ def _reader_of_file(path):
     suffix = _suffix_of(path)
     if suffix:
         return SUFFIXES[suffix]
-    found = next((reader for at, mark, reader in _MARKS if head[at:at + len(mark)] == mark), None)
+    found = next((reader for at, signature, reader in _SIGNATURES
+                  if head[at:at + len(signature)] == signature), None)
     if found is None:
-        raise VolumeError("not a format that is read (%s); give --raw for voxels without a header"
+        raise VolumeError("unknown format; supported are %s, and --raw for voxels without header"
                           % " ".join(sorted(SUFFIXES)))
     if ":" not in found:
-        raise VolumeError("begins like a %s file: let its name end so" % found)
+        raise VolumeError("probably a %s file; change its suffix" % found)
     return found
 
 
@@ -135,8 +168,8 @@ def _is_dicom(path):
 
 
 def list_series(path):
-    """Return a line for each DICOM series of a file or folder."""
-    with naming(path):
+    """Return one line per DICOM series of a file or folder."""
+    with prefix_errors(path):
         from . import dicom
         _need_files(path)
         return dicom.list_series(path)
@@ -144,11 +177,11 @@ def list_series(path):
 
 def _need_files(path):
     for file in [path] if os.path.isdir(path) else list_files(path):
-        need_file(file)
+        require_file(file)
 
 
 def list_files(path, choice=None):  # pylint: disable=unused-argument
-    """Return all files that read() would open."""
+    """Return all files that read() opens."""
     if os.path.isdir(path):
         return _files_of_folder(path)
     folder = os.path.dirname(path)
@@ -167,7 +200,7 @@ def list_files(path, choice=None):  # pylint: disable=unused-argument
 
 
 def _files_of_folder(folder, is_nested=True):
-    """Return the files of a folder: those of DICOM with those in folders within, else all."""
+    """Return the files of a folder; for DICOM and Zarr including subfolders."""
     from .microscopy import natural
     files = [entry.path for entry in os.scandir(folder) if entry.is_file()]
     slices = [file for file in files if _is_dicom(file)]
@@ -179,7 +212,7 @@ def _files_of_folder(folder, is_nested=True):
 
 
 def _companions(path):
-    """Return the other files that a header names, or that belong to it."""
+    """Return the other files that a header refers to or that belong to it."""
     suffix = _suffix_of(path)
     folder, files = os.path.dirname(path), []
     if suffix in (".img", ".img.gz", ".hdr", ".hdr.gz"):

@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""DICOM by pydicom: series of slices, files of many frames, segmentations. A slice is a file or a
-frame of one."""
+"""DICOM by pydicom: series of slices, segmentations. A slice is a single-frame file or a frame."""
 from __future__ import annotations
 
 import collections
@@ -13,14 +12,14 @@ import numpy as np
 
 from . import list_files
 from ..errors import VolumeError
-from .dicom_pixels import NO_SLICE, pixels_of, read_file, values_of
+from .dicom_pixels import COPY_OR_MOVE, pixels_of, read_file, values_of
 from .grid import on_regular_grid, one_of_times
 from .microscopy import natural
 from .volume import Label, Volume, plain_name, text_of
 
 
 def is_dicom(file):
-    """Return whether a file begins as DICOM: with its mark, or, of old ones, with group 2 or 8."""
+    """Return whether a file is DICOM: by its signature, or, without preamble, by group 2 or 8."""
     with open(file, "rb") as stream:
         head = stream.read(132)
     return head[128:] == b"DICM" or len(head) == 132 and head[0] in (2, 8) and not (
@@ -28,9 +27,7 @@ def is_dicom(file):
 
 
 def dicom_files(path):
-    """Return the DICOM files among those that belong to a path.
-
-    Throw VolumeError if one beside them looks like a slice that was cut off or damaged."""
+    """Return the DICOM files of a path. Raise VolumeError if a similar file is no valid DICOM."""
     slices = [file for file in map(os.path.abspath, list_files(path)) if is_dicom(file)]
     keys = lambda file: (os.path.splitext(file)[1].lower(), re.sub(r"\d+", "0", file))
     endings, forms = map(set, zip(*map(keys, slices))) if slices else ((), ())
@@ -40,48 +37,48 @@ def dicom_files(path):
         if name.startswith(".") or not os.path.isfile(file):
             continue
         if is_dicom(file):
-            slices += [file] * os.path.exists(path)  # one without preamble among others
+            slices += [file] * os.path.exists(path)  # without preamble
             continue
         with open(file, "rb") as stream:
             head = stream.read(136)
         if (ending in (".dcm", ".dicom", ".ima") or form in forms or head[132:] == b"\2\0\0\0"
                 or not head.strip(b"\0") and ending in endings):
-            raise VolumeError("%s: no DICOM file, though like the slices beside it: it is cut off "
-                              "or damaged%s" % (name, NO_SLICE))
+            raise VolumeError("%s: not a DICOM file, unlike similar files next to it: truncated or "
+                              "damaged%s" % (name, COPY_OR_MOVE))
     return sorted(set(slices), key=natural)
 
 
 # ---- Headers -----------------------------------------------------------------------------------
 
 def _numbers(sets, name, count=1, default=None):
-    """Return the `count` numbers of an attribute in the first data set that has it; 1: a number."""
+    """Return the first `count` numbers (1: scalar) of an attribute in the first set that has it."""
     value = next((v for v in (each.get(name) for each in sets) if v not in (None, "")), None)
     if value is None:
         return default
     values = np.array(value, float).ravel()
     if len(values) < count or not np.isfinite(values).all():
-        raise VolumeError("its header is damaged: %s is %s" % (name, value))
+        raise VolumeError("invalid header: %s is %s" % (name, value))
     return values[:count] if count > 1 else values[0]
 
 
 def _slices(data, file, name):
-    """Return the slices in a file; none if it is a directory or a report."""
+    """Return the slices in a file; empty for directories and reports."""
     if not data.get("Rows") or not data.has_pixels:
         kind = data.file_meta.get("MediaStorageSOPClassUID") or data.get("SOPClassUID") or ""
         if getattr(kind, "name", kind) == kind or re.search(
                 "Image|Segmentation|Dose", kind.name) or data.get("Rows"):
-            raise VolumeError("it has no pixels: it is cut off, or no slice" + NO_SLICE)
+            raise VolumeError("no pixels: truncated, or not a slice" + COPY_OR_MOVE)
         return []
     frames = int(data.get("NumberOfFrames") or 1)
     own = data.get("PerFrameFunctionalGroupsSequence") or []
     if not 1 <= frames <= max(1, os.path.getsize(file) // 8) or own and len(own) != frames:
-        raise VolumeError("its header is damaged, or the file is cut off: %d frames, %d of them "
-                          "with attributes" % (frames, len(own)))
+        raise VolumeError("invalid header or truncated file: %d frames, %d of them with "
+                          "attributes" % (frames, len(own)))
     groups = lambda items: [element.value[0] for item in items for element in item
                             if element.VR == "SQ" and len(element.value) == 1]
     common = groups((data.get("SharedFunctionalGroupsSequence") or [])[:1]) + [data]
     bits, padding = int(data.get("BitsAllocated") or 0), data.get("PixelPaddingValue")
-    if padding is not None:  # pydicom may take it for bytes, or for a number without a sign
+    if padding is not None:  # pydicom may return bytes or an unsigned number
         padding = padding if isinstance(padding, int) else int.from_bytes(padding[:2], "little")
         padding %= 1 << bits
         padding -= (data.get("PixelRepresentation") == 1 and padding >> (bits - 1)) << bits
@@ -109,21 +106,21 @@ def _slices(data, file, name):
 
 
 class _Series:
-    """The slices of one series, without copies of them, in the order of their files."""
+    """The distinct slices of a series, in the order of their files."""
 
     def __init__(self, number, uid, data):
         self.number, self.uid, self.data, self.slices, self.copies = number, uid, data, {}, 0
 
     def text(self):
-        """Return a line about it."""
+        """Return a one-line description."""
         slices, data = list(self.slices.values()), self.data
-        places = collections.Counter(str(s.position) for s in slices if s.position is not None)
-        times = max(places.values(), default=1) if "SegmentSequence" not in data else 1
+        positions = collections.Counter(str(s.position) for s in slices if s.position is not None)
+        times = max(positions.values(), default=1) if "SegmentSequence" not in data else 1
         about = [data.get("SeriesDescription") or "unnamed", data.get("Modality"),
                  data.get("SeriesDate") or data.get("StudyDate")]
         return "%d: %s, %d slice%s of %d x %d%s, from %s" % (
             self.number, ", ".join(plain_name(str(each)) for each in about if each), len(slices),
-            "s" * (len(slices) > 1), *slices[0].size[::-1], ", %d at each place (--time)" % times
+            "s" * (len(slices) > 1), *slices[0].size[::-1], ", %d at each position (--time)" % times
             if times > 1 else "", os.path.basename(slices[0].file))
 
 
@@ -137,7 +134,7 @@ def _all_series(files):
             slices = {each.copy: each for each in _slices(data, file, name)}
             uid = str(data.get("SeriesInstanceUID") or "")
         except Exception as error:  # pylint: disable=broad-except
-            text = "" if isinstance(error, VolumeError) else "its header is damaged: "
+            text = "" if isinstance(error, VolumeError) else "invalid header: "
             raise VolumeError("%s: %s%.300s" % (name, text, error)) from None
         if slices:
             series = found.setdefault(uid, _Series(len(found) + 1, uid, data))
@@ -145,32 +142,32 @@ def _all_series(files):
             for key, each in slices.items():
                 series.slices.setdefault(key, each)
     if not found:
-        raise VolumeError("no DICOM image there")
+        raise VolumeError("no DICOM image found")
     return list(found.values())
 
 
 def list_series(path):
-    """Return a line for each series of a path: number, description, slices, identifier."""
+    """Return one line per series of a path: number, description, slices, UID."""
     return ["%s, %s" % (each.text(), each.uid) for each in _all_series(dicom_files(path))]
 
 
 def read_dicom(path, choice):
-    """A series of slices or frames; the world is LPS. A file stands for its series."""
-    wanted, found = choice.series, None
+    """Read a series of slices or frames, in LPS. A file stands for its series."""
+    requested, found = choice.series, None
     if os.path.isfile(path) and os.path.basename(path).lower() != "dicomdir":
         found = _all_series([os.path.abspath(path)])
-        wanted = found[0].uid if wanted is None else wanted
+        requested = found[0].uid if requested is None else requested
     if found is None or len(found[0].slices) == 1:
         found = _all_series(dicom_files(path))
-    chosen = [s for s in found if wanted is None or str(wanted) in (str(s.number), s.uid)]
+    chosen = [s for s in found if requested is None or str(requested) in (str(s.number), s.uid)]
     if len(chosen) != 1:
         texts = "; ".join(each.text() for each in found)
-        raise VolumeError("%d series, one is needed; choose it with --series N: %s"
+        raise VolumeError("%d series; choose one with --series N: %s"
                           % (len(found), texts) if chosen else
-                          "no series %s; there are %s" % (wanted, texts))
+                          "no series %s; choose one of %s" % (requested, texts))
     series, notes = chosen[0], []
     if series.copies:
-        notes.append("%d of its files are copies of others" % series.copies)
+        notes.append("%d files are copies of others and are ignored" % series.copies)
     read = _segmentation if series.data.get("Modality") == "SEG" else _volume
     volume = read(series, list(series.slices.values()), choice, notes)
     volume.warnings, volume.space, volume.unit = notes + volume.warnings, "LPS", "mm"
@@ -179,40 +176,39 @@ def read_dicom(path, choice):
 
 # ---- Volumes -----------------------------------------------------------------------------------
 
-def _is_like(one, other):
-    """Return whether two slices may be of one volume: a localizer lies across the others."""
+def _is_similar(one, other):
+    """Return whether two slices may belong to one volume; localizers do not."""
     return one.size == other.size and all((a is None) == (b is None) and (
-        a is None or np.abs(a - b).max() < most) for a, b, most in (
+        a is None or np.abs(a - b).max() < limit) for a, b, limit in (
             (one.spacing, other.spacing, 1e-3), (one.axes, other.axes, .04),
             (one.position, other.position, np.inf)))
 
 
-def _alike(slices, notes):
-    """Return the slices that are like most."""
+def _largest_group(slices, notes):
     groups = []
     for each in slices:
-        group = next((group for group in groups if _is_like(each, group[0])), None)
+        group = next((group for group in groups if _is_similar(each, group[0])), None)
         if group is None:
             groups.append([each])
         else:
             group.append(each)
     groups.sort(key=len, reverse=True)
     if len(groups) > 1:
-        one, other, left = groups[0][0], groups[1][0], len(slices) - len(groups[0])
-        what = "size" if other.size != one.size else "place, orientation or pixel spacing"
-        text = "%s: its %s differs from that of %s; " % (other.name, what, one.name)
-        if 4 * left > len(slices):
-            raise VolumeError(text + "move what is no slice of the volume to another folder")
-        notes.append(text + "%d of %d slices are left out (a localizer?)" % (left, len(slices)))
+        one, other, ignored = groups[0][0], groups[1][0], len(slices) - len(groups[0])
+        what = "size" if other.size != one.size else "position, orientation or pixel spacing"
+        text = "the %s of %s differs from that of %s; " % (what, other.name, one.name)
+        if 4 * ignored > len(slices):
+            raise VolumeError(text + "move files of other volumes to another folder")
+        notes.append(text + "%d of %d slices are ignored (localizer?)" % (ignored, len(slices)))
     return groups[0]
 
 
 def _geometry(slices, notes):
-    """Return axes (columns), positions, heights along the normal, and distances of pixels; place
-    slices that lack positions one behind the other."""
+    """Return axes (columns), positions, heights along the normal, and pixel spacing. Slices without
+    positions are stacked."""
     first = slices[0]
     if first.axes is None and first.position is not None and len(slices) > 1:
-        raise VolumeError(first.name + ": it lacks its orientation" + NO_SLICE)
+        raise VolumeError(first.name + ": the orientation is missing" + COPY_OR_MOVE)
     across, down = np.eye(3)[:2] if first.axes is None else first.axes
     axes = np.stack([across, down, np.cross(across, down)], 1)
     if first.position is None:
@@ -221,42 +217,42 @@ def _geometry(slices, notes):
             each.position = axes[:, 2] * first.distance * number
             each.position += 0. if first.base is None else first.base
         if len(slices) > 1:
-            notes.append("its %d slices have no positions; they are taken one behind the other, %g "
-                         "mm apart" % (len(slices), first.distance))
+            notes.append("%d slices have no positions; they are stacked at a distance of %g mm"
+                         % (len(slices), first.distance))
     spacing = first.imager if first.spacing is None else first.spacing
     if first.spacing is None:
-        notes.append("it has no Pixel Spacing; %s is taken; choose another one with --spacing" % (
-            "1 x 1" if spacing is None else "the Imager Pixel Spacing, %g x %g, that of the "
-            "detector," % tuple(spacing)))
-    spacing = np.ones(2) if spacing is None else spacing[::-1]  # that between rows comes first
+        notes.append("no Pixel Spacing; %s is used; change it with --spacing" % (
+            "1 x 1" if spacing is None else "the Imager Pixel Spacing of the detector, %g x %g,"
+            % tuple(spacing)))
+    spacing = np.ones(2) if spacing is None else spacing[::-1]  # row spacing is first
     positions = np.array([each.position for each in slices])
     return axes, positions, positions @ axes[:, 2], spacing
 
 
 def _volume(_, slices, choice, notes):
-    """Return the slices of one time on a regular grid."""
-    slices = _alike(slices, notes)
+    """Return the slices of one time as a volume on a regular grid."""
+    slices = _largest_group(slices, notes)
     axes, positions, heights, spacing = _geometry(slices, notes)
     order = np.argsort(heights, kind="stable")
-    places = [sorted(place, key=lambda i: slices[i].order)
-              for place in np.split(order, np.flatnonzero(np.diff(heights[order]) > 1e-4) + 1)]
-    most = max(places, key=len)
-    if len(places) * len(most) != len(slices):
-        raise VolumeError("%s lies where %s does, and others don't come twice; move what is no "
-                          "slice of the volume to another folder"
-                          % (slices[most[1]].name, slices[most[0]].name))
-    time = one_of_times(len(most), choice)
-    order = [place[time] for place in places]
+    stacks = [sorted(stack, key=lambda i: slices[i].order)
+              for stack in np.split(order, np.flatnonzero(np.diff(heights[order]) > 1e-4) + 1)]
+    largest = max(stacks, key=len)
+    if len(stacks) * len(largest) != len(slices):
+        raise VolumeError("%s and %s have the same position, but not all slices occur twice; move "
+                          "files of other volumes to another folder"
+                          % (slices[largest[1]].name, slices[largest[0]].name))
+    time = one_of_times(len(largest), choice)
+    order = [stack[time] for stack in stacks]
     positions, heights = positions[order], heights[order]
     values, least = values_of([slices[i] for i in order])
     gaps = np.diff(heights)
     pitch = gaps.mean() if len(gaps) else slices[0].thickness or 1.
     aside = np.linalg.norm(np.diff(positions, axis=0) - gaps[:, None] * axes[:, 2], axis=1)
     if np.abs(gaps - pitch).max(initial=0) > .05 * pitch:
-        why = ("slices are %s mm apart: some are missing, or they were taken so"
+        why = ("slice distances vary from %s mm: missing slices, or irregular acquisition"
                % text_of(np.round([gaps.min(), gaps.max()], 3), " to "))
     elif aside.max(initial=0) > .05 * pitch:
-        why = ("the gantry was tilted: each slice is shifted by up to %s mm against the one before"
+        why = ("gantry tilt: slices are shifted by up to %s mm against the previous one"
                % text_of([round(aside.max(), 3)]))
     else:
         return Volume(values, (*spacing, pitch), tuple(positions[0]), axes)
@@ -265,17 +261,17 @@ def _volume(_, slices, choice, notes):
 
 
 def _segmentation(series, slices, choice, notes):
-    """Return the frames of a segmentation as labels; frames that it leaves out are empty."""
+    """Return the frames of a segmentation as labels. Omitted frames are empty."""
     axes, positions, heights, spacing = _geometry(slices, notes)
     steps = np.diff(np.sort(heights))
     pitch = steps[steps > 1e-4].min() if (steps > 1e-4).any() else max(slices[0].thickness, 1e-3)
     levels = (heights - heights.min()) / pitch
     if levels.max() > 1e5 or np.abs(levels - np.rint(levels)).max() > .05:
-        raise VolumeError("its frames lie at uneven distances")
+        raise VolumeError("frames are not equally spaced")
     levels, size, least = np.rint(levels).astype(int), slices[0].size, 0
     if series.data.get("SegmentationType") == "FRACTIONAL":
         least = (series.data.get("MaximumFractionalValue") or 255) / 2
-    frames = collections.defaultdict(list)  # of each segment; as bits, for all need much memory
+    frames = collections.defaultdict(list)  # by segment, packed to save memory
     for i, pixels in pixels_of(slices):
         segment = slices[i].segment
         frames[segment].append((levels[i], segment or pixels, np.packbits(pixels > least)))
@@ -293,7 +289,7 @@ def _segmentation(series, slices, choice, notes):
         for level, values, bits in parts:
             np.copyto(layers[number][level], values, "unsafe", mask(bits))
     if overlap:
-        notes.append("its segments overlap in %d voxels, which get the last one of them" % overlap)
+        notes.append("segments overlap in %d voxels, which get the last segment" % overlap)
     labels = [Label(int(each.SegmentNumber), plain_name(str(each.get("SegmentLabel") or "")),
                     _color(each.get("RecommendedDisplayCIELabValue")),
                     at.get(each.SegmentNumber, 0))
@@ -303,7 +299,7 @@ def _segmentation(series, slices, choice, notes):
 
 
 def _color(lab):
-    """Return r, g, b of CIELab as DICOM scales it."""
+    """Return the RGB colour of a CIELab value as scaled by DICOM."""
     if lab is None or len(lab) != 3:
         return None
     l, a, b = np.array(lab, float) / 65535 * (100, 255, 255) - (0, 128, 128)

@@ -14,16 +14,16 @@ import warnings
 import numpy as np
 
 from ..errors import VolumeError
-from .grid import one_of_times, placed, voxels
+from .grid import one_of_times, make_volume, voxels
 from .volume import METERS, Choice, failure_of, unit_of
 
-_PICTURES = (".png", ".tif", ".tiff", ".bmp", ".jpg", ".jpeg", ".pgm", ".ppm", ".pnm")
+_PICTURE_SUFFIXES = (".png", ".tif", ".tiff", ".bmp", ".jpg", ".jpeg", ".pgm", ".ppm", ".pnm")
 _COLORS = {1: "", 2: "gray and alpha", 3: "color", 4: "color and alpha"}  # by components
 _MODES = {0: "i1", 1: "i2", 2: "f4", 3: "(2,)i2", 4: "c8", 6: "u2", 12: "f2", 16: "(3,)u1"}
 
 
 def read_mrc(path, choice):
-    """MRC2014, also packed. mrcfile ignores the order of the axes and the angles of the cell."""
+    """Read MRC2014, also compressed. mrcfile ignores the axis order and the cell angles."""
     import mrcfile
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -32,8 +32,8 @@ def read_mrc(path, choice):
     numbers = lambda *names: np.array([int(header[name]) for name in names])
     mode, sizes = int(header.mode), numbers("nz", "ny", "nx")
     if mode not in _MODES:
-        raise VolumeError("voxels of mode %d cannot be read; write them as mode 2 (IMOD: newstack "
-                          "-mode 2)" % mode)
+        raise VolumeError("mode %d is not supported; convert it to mode 2 (IMOD: newstack -mode "
+                          "2)" % mode)
     order, cells = numbers("mapc", "mapr", "maps") - 1, numbers("mx", "my", "mz")
     order = order if order.max() >= 0 else np.arange(3)
     angles = [float(angle) or 90. for angle in header.cellb.tolist()]
@@ -41,16 +41,16 @@ def read_mrc(path, choice):
     sine = np.sqrt(1 - cg * cg)
     y = (ca - cb * cg) / sine if sine > 0 else 1.
     if sorted(order) != [0, 1, 2] or sizes.min() < 1 or cells.min() < 1 or not cb * cb + y * y < 1:
-        raise VolumeError("its header is damaged: %d x %d x %d voxels along the axes %s, %d x %d x "
+        raise VolumeError("invalid header: %d x %d x %d voxels along the axes %s, %d x %d x "
                           "%d cells with the angles %g, %g, %g"
                           % (*sizes[::-1], order + 1, *cells, *angles))
     kind, extra = _MODES[mode], header["extra2"].tobytes()[40:48]  # bytes 152 to 159
     if mode == 0 and extra[:4] in (b"IMOD", b"DOMI") and not extra[4 if extra[0] == 73 else 7] & 1:
-        kind = "u1"  # IMOD has a flag of signed bytes
+        kind = "u1"  # IMOD has a flag for signed bytes
     dtype = np.dtype(kind).newbyteorder(header.dtype["nx"].byteorder)
     with open(path, "rb") as stream:
-        packing = {b"\x1f\x8b": "gzip", b"BZ": "bz2"}.get(stream.read(2))
-    array = voxels(path, 0, dtype, np.prod(sizes, dtype=object), packing,
+        compression = {b"\x1f\x8b": "gzip", b"BZ": "bz2"}.get(stream.read(2))
+    array = voxels(path, 0, dtype, np.prod(sizes, dtype=object), compression,
                    1024 + int(header.nsymbt), exact=True).reshape(*sizes, *dtype.shape)
     array = np.moveaxis(array, -1, 0) if dtype.shape else array
     if header.ispg >= 401 and sizes[0] > cells[2] and sizes[0] % cells[2] == 0:  # several volumes
@@ -58,14 +58,14 @@ def read_mrc(path, choice):
     axes = np.array([[1, cg, cb], [0, sine, y], [0, 0, np.sqrt(1 - cb * cb - y * y)]])
     steps = axes * (np.array(header.cella.tolist()) / cells)  # columns: along x, y and z
     origin = header.origin.tolist() + steps[:, order] @ numbers("nxstart", "nystart", "nzstart")
-    return placed(array, steps[:, order], origin, "", "A", choice,
-                  components={3: "complex", 16: "color"}.get(mode, ""))
+    return make_volume(array, steps[:, order], origin, "", "A", choice,
+                       components={3: "complex", 16: "color"}.get(mode, ""))
 
 
 # ---- TIFF --------------------------------------------------------------------------------------
 
 def read_tiff(path, choice):
-    """TIFF, BigTIFF, OME-TIFF, ImageJ and LSM by tifffile; packings that it lacks by Pillow."""
+    """Read TIFF, BigTIFF, OME-TIFF, ImageJ and LSM by tifffile, some compressions by Pillow."""
     import tifffile
     logged, handler = [], logging.Handler(logging.WARNING)
     handler.emit = lambda record: logged.append(record.getMessage().split("> ")[-1].strip("')"))
@@ -80,17 +80,17 @@ def read_tiff(path, choice):
                       if re.search("invalid|corrupt|damage|missing|circular|failed", text)]
             damage += ["pages are missing"] * any(page is None for page in series.pages)
             if damage or len(set(kinds)) > 1:
-                raise IndexError((damage or ["its pages differ in size or kind of pixels"])[0])
+                raise IndexError((damage or ["pages differ in size or pixel type"])[0])
             _check_pages(file, series, is_plain)
             return _tiff_volume(path, file, series, choice)
     except (IndexError, TypeError, KeyError, struct.error, tifffile.TiffFileError) as error:
-        raise VolumeError("the file is cut off or damaged: %s" % error) from None
+        raise VolumeError("the file is truncated or damaged: %s" % error) from None
     finally:
         logging.getLogger("tifffile").removeHandler(handler)
 
 
 def _check_chain(handle, form):
-    """Throw IndexError if the directories of pages form a ring, in which tifffile walks forever."""
+    """Raise IndexError if the page directories form a cycle, in which tifffile hangs."""
     at, seen = form.offsetsize if form.offsetsize == 8 else 4, set()
     while True:
         handle.seek(at)
@@ -98,7 +98,7 @@ def _check_chain(handle, form):
         if not offset:
             return
         if offset in seen:
-            raise IndexError("its pages form a ring")
+            raise IndexError("page directories form a cycle")
         seen.add(offset)
         handle.seek(offset)
         tags, = struct.unpack(form.tagnoformat, handle.read(form.tagnosize))
@@ -106,14 +106,14 @@ def _check_chain(handle, form):
 
 
 def _check_pages(file, series, is_plain):
-    """Throw IndexError if pixels are not in the file, or bytes of the file in no page."""
+    """Raise IndexError if pixels are outside the file, or bytes of the file belong to no page."""
     length, key, first = file.filehandle.size, series.keyframe, file.pages[0]
     for number, page in enumerate(series.pages):
         counts = page.databytecounts
         end = max(map(sum, zip(page.dataoffsets, counts)), default=0)
         if not counts or end > length or min(counts) <= 0 or (
                 key.compression == 1 and key.bitspersample >= 8 and sum(counts) < key.nbytes):
-            raise IndexError("page %d: its pixels, %d bytes, end at byte %d, the file at byte %d"
+            raise IndexError("page %d: %d bytes of pixels end at byte %d, the file at byte %d"
                              % (number + 1, sum(counts), end, length))
     if not is_plain or first.subifds:
         return
@@ -122,7 +122,7 @@ def _check_pages(file, series, is_plain):
     other = 2 * inner + sum(entry + value * (value > inner) for value in values)
     data = sum(sum(page.databytecounts) for page in file.pages) / len(file.pages)
     if length - len(file.pages) * (data + other) >= max(data, 32 * len(file.pages)):
-        raise IndexError("%d bytes belong to none of its %d pages; copy it again, or by tiffcp"
+        raise IndexError("%d bytes belong to none of the %d pages; copy the file by tiffcp"
                          % (length - len(file.pages) * data, len(file.pages)))
 
 
@@ -157,11 +157,11 @@ def _tiff_volume(path, file, series, choice):
         array = array.reshape(-1, *array.shape[-3:])
         more["components"] = "channels" if "C" in axes else _COLORS.get(len(array), "channels")
     pixel, unit = _tiff_spacing(file, first)
-    return placed(array, np.diag(pixel), [0, 0, 0], "", unit, choice, **more)
+    return make_volume(array, np.diag(pixel), [0, 0, 0], "", unit, choice, **more)
 
 
 def _tiff_spacing(file, first):
-    """Return the distances along x, y and z, and their unit."""
+    """Return the spacing along x, y and z, and its unit."""
     if file.is_lsm:
         return [file.lsm_metadata["VoxelSize" + c] * 1e6 or 1. for c in "XYZ"], "um"
     if file.is_ome:
@@ -181,24 +181,25 @@ def _tiff_spacing(file, first):
 
 
 def _pages_by_pillow(path, series):
-    """Return the pages of a packing that tifffile reads with imagecodecs only, such as LZW."""
+    """Return the pages of compressions that tifffile lacks without imagecodecs, such as LZW."""
     from PIL import Image, ImageSequence
     Image.MAX_IMAGE_PIXELS = 1 << 30
-    with tempfile.TemporaryFile() as words:  # libtiff writes to the standard error
+    with tempfile.TemporaryFile() as log:  # libtiff writes to the standard error
         saved = os.dup(2)
-        os.dup2(words.fileno(), 2)
+        os.dup2(log.fileno(), 2)
         try:
             with Image.open(path) as image:
                 pages = [np.array(page) for page in ImageSequence.Iterator(image)]
         except OSError:
-            raise VolumeError("its packed pixels are cut off or damaged; copy it again") from None
+            raise VolumeError("the compressed pixels are truncated or damaged; copy the file again"
+                              ) from None
         finally:
             os.dup2(saved, 2)
             os.close(saved)
     pages = pages[:len(series.pages)]
     if {page.shape for page in pages} != {series.keyframe.shape} or len(pages) < len(series.pages):
-        raise VolumeError("its packing cannot be read; install imagecodecs, or convert it by "
-                          "tiffcp -c none")
+        raise VolumeError("the compression is not supported; install imagecodecs, or convert the "
+                          "file by tiffcp -c none")
     pages = np.stack(pages)
     return (pages > 0 if series.keyframe.bitspersample == 1 else pages).astype(series.dtype)
 
@@ -206,16 +207,16 @@ def _pages_by_pillow(path, series):
 # ---- Pictures ----------------------------------------------------------------------------------
 
 def natural(name):
-    """Return a key that sorts names by the numbers in them."""
+    """Return a sort key that orders names by the numbers in them."""
     return [(0, int(text), text) if text.isdigit() else (1, 0, text)
             for text in re.split(r"(\d+)", name) if text]
 
 
 def names_of_pattern(path):
-    """Return a folder and the names there, in natural order, that match a pattern such as '*.tif'
-    or 'slice%03d.png'; of a folder all names."""
+    """Return the folder and, in natural order, the names that match a pattern such as '*.tif' or
+    'slice%03d.png'; for a folder all names."""
     folder, name = (path, "*") if os.path.isdir(path) else os.path.split(path)
-    parts = re.split(r"(\*|%\d*[diu])", name)  # at odd places: what stands for other text
+    parts = re.split(r"(\*|%\d*[diu])", name)  # wildcards are at odd indices
     pattern = "".join((".*" if part == "*" else r"\d+") if i % 2 else re.escape(part)
                       for i, part in enumerate(parts))
     names = [each for each in os.listdir(folder or ".") if re.fullmatch(pattern, each, re.DOTALL)
@@ -224,15 +225,16 @@ def names_of_pattern(path):
 
 
 def read_pictures(path, choice):
-    """A slice for each picture of a folder or pattern, in natural order. Pictures whose name, but
-    for its numbers, or size differs from that of most are left out."""
+    """Read one slice per picture of a folder or pattern, in natural order. Pictures whose name
+    pattern or size differs from that of most are ignored."""
     folder, names = names_of_pattern(path)
-    form = {name: re.sub(r"\d+", "#", name) for name in names if name.lower().endswith(_PICTURES)}
+    form = {name: re.sub(r"\d+", "#", name) for name in names
+            if name.lower().endswith(_PICTURE_SUFFIXES)}
     forms = collections.Counter(form.values()).most_common() or [("", 0)]
     kept = [name for name in form if form[name] == forms[0][0] or forms[0][1] == 1]
     if 4 * len(kept) < 3 * len(form) or not form:
-        raise VolumeError("no pictures and no DICOM slices there" if not form else
-                          "pictures with several kinds of names: %s; choose with a pattern, such "
+        raise VolumeError("no pictures and no DICOM slices found" if not form else
+                          "pictures with several name patterns: %s; choose one with a pattern such "
                           "as '%s'" % (", ".join("%s (%d)" % each for each in forms[:3]),
                                        forms[-1][0].replace("#", "*")))
     notes, slices = [], []
@@ -245,24 +247,25 @@ def read_pictures(path, choice):
     most = collections.Counter(kinds).most_common(1)[0][0]
     slices = {name: pixels for name, pixels, kind in zip(kept, slices, kinds) if kind == most}
     if 4 * len(slices) < 3 * len(kept):
-        raise VolumeError("%s: its size or kind of values differs from that of %s; choose with a "
+        raise VolumeError("%s: size or pixel type differs from that of %s; choose files with a "
                           "pattern" % (next(n for n in kept if n not in slices), [*slices][0]))
     others, numbers = [name for name in names if name not in slices], _gaps(list(slices))
     if others:
-        notes.append("files whose names or sizes differ from those of the slices are left out: "
+        notes.append("files with names or sizes unlike those of the slices are ignored: "
                      + ", ".join(others[:5]) + ", ... (%d)" % len(others) * (len(others) > 5))
     if numbers:
-        notes.append("the numbers of its slices have gaps (%s): slices are missing" % numbers)
+        notes.append("slice numbers have gaps (%s): slices are missing" % numbers)
     array = np.empty((len(slices), *most[0]), most[1])
-    for place, name in zip(array, list(slices)):
-        place[...] = slices.pop(name)  # both together would need twice the memory
+    for target, name in zip(array, list(slices)):
+        target[...] = slices.pop(name)  # released to save memory
     array = np.moveaxis(array, -1, 0) if array.ndim == 4 else array
-    return placed(array, np.eye(3), [0, 0, 0], "", "", choice, warnings=list(dict.fromkeys(notes)),
-                  components=_COLORS.get(len(array), "channels") if array.ndim == 4 else "")
+    return make_volume(array, np.eye(3), [0, 0, 0], "", "", choice,
+                       warnings=list(dict.fromkeys(notes)),
+                       components=_COLORS.get(len(array), "channels") if array.ndim == 4 else "")
 
 
 def _gaps(names):
-    """Return the numbers that are missing in sorted names of which one number counts the slices."""
+    """Return the missing numbers in sorted names that differ in one number."""
     numbers = [[int(number) for number in re.findall(r"\d+", name)] for name in names]
     varying = [column for column in zip(*numbers) if len(set(column)) > 1]
     if len(varying) != 1 or len({len(each) for each in numbers}) > 1:
@@ -278,14 +281,14 @@ def _picture(file, are_labels, notes):
     if file.lower().endswith((".tif", ".tiff")):
         pages = read_tiff(file, Choice()).array
         if pages.shape[-3] > 1:
-            raise VolumeError("%d pages; give it by its name, it is a volume" % pages.shape[-3])
+            raise VolumeError("%d pages, a volume; give the name of this file" % pages.shape[-3])
         pixels = pages[..., 0, :, :] if pages.ndim == 3 else np.moveaxis(pages[:, 0], 0, -1)
         return pixels.astype(pixels.dtype.newbyteorder("="))
     from PIL import Image
     Image.MAX_IMAGE_PIXELS = 1 << 30
     with Image.open(file) as image:
         if image.mode in ("P", "PA") and not are_labels:
-            notes.append("the colors of its palette are read; --labels reads the numbers")
+            notes.append("palette colours are read; use --labels to read palette indices")
         mode = {"1": "L", "PA": "P", "CMYK": "RGB", "YCbCr": "RGB"}.get(image.mode, image.mode)
         mode = "RGB" if mode == "P" and not are_labels else mode
         pixels = np.array(image if mode == image.mode else image.convert(mode))
@@ -295,10 +298,10 @@ def _picture(file, are_labels, notes):
 # ---- OME-Zarr ----------------------------------------------------------------------------------
 
 def read_ome_zarr(path, choice):
-    """The finest level of an OME-Zarr image, whose chunks are read one by one."""
+    """Read the finest level of an OME-Zarr image, chunk by chunk."""
     from .. import ome_zarr
     notes = []
-    with warnings.catch_warnings(record=True) as told:
+    with warnings.catch_warnings(record=True) as recorded:
         warnings.simplefilter("always")
         try:
             image = ome_zarr.open(path)
@@ -310,13 +313,13 @@ def read_ome_zarr(path, choice):
                 image = ome_zarr.open(path, time=time, channel=channel)
                 missing, count = image.missing_chunks()
                 if missing:
-                    notes.append("%d of %d chunks have no file; their voxels are %s, the fill value"
+                    notes.append("%d of %d chunks have no file; their voxels get the fill value %s"
                                  % (missing, count, image.array.fill_value))
                 values[...] = image[...]
         except (ValueError, RuntimeError, KeyError) as error:
             text = re.sub("^%s(:? |/)" % re.escape(path), "", str(error))
-            raise VolumeError(text if text != str(error) else "its chunks or metadata are damaged "
-                              "or cut off (%s)" % text) from None
-    notes += sorted({str(each.message).replace(path + ": ", "") for each in told})
-    return placed(array, np.diag(image.spacing), image.origin, "", unit_of(image.unit), choice,
-                  warnings=notes, components="channels" if len(channels) > 1 else "")
+            raise VolumeError(text if text != str(error) else "chunks or metadata are damaged or "
+                              "truncated (%s)" % text) from None
+    notes += sorted({str(each.message).replace(path + ": ", "") for each in recorded})
+    return make_volume(array, np.diag(image.spacing), image.origin, "", unit_of(image.unit), choice,
+                       warnings=notes, components="channels" if len(channels) > 1 else "")

@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Points and surfaces that segmentation starts with, as vtkPolyData."""
+"""Points and surfaces as inputs of the segmentation, as vtkPolyData."""
 from __future__ import annotations
 
 import os
 import re
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkCharArray, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from ..errors import VolumeError
-from .volume import naming, need_file
+from .volume import prefix_errors, require_file
 from .vtkxml import XmlFile
 from .worker import in_worker
 
@@ -20,33 +23,32 @@ def read_seeds(path):
 
 
 def read_attracting_points(path):
-    """Return points with their arrays; a text has the columns x, y, z, Weight, Radius."""
+    """Return points with arrays Weight and Radius. A text has columns x, y, z, weight, radius."""
     return _vertices(path, 5)
 
 
 def read_surface(path):
-    """Return the polygons of a mesh, whose equal points are merged."""
+    """Return the polygons of a mesh, with equal points merged."""
     from vtkmodules.vtkFiltersCore import vtkCleanPolyData
     clean = vtkCleanPolyData()
-    with naming(path):
+    with prefix_errors(path):
         clean.SetInputData(_mesh(path))
         clean.SetTolerance(0.)
         clean.Update()
         if not clean.GetOutput().GetNumberOfPolys():
-            raise VolumeError("has no polygons")
+            raise VolumeError("the file has no polygons")
     return clean.GetOutput()
 
 
 def _vertices(path, columns):
-    """Return the points of a text or a mesh as vertices; with five columns, their arrays, too."""
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    """Return the points of a text or mesh as vertices; with five columns also their arrays."""
     from vtkmodules.vtkFiltersGeneral import vtkVertexGlyphFilter
     is_text = os.path.splitext(path)[1].lower() in (".txt", ".csv", ".xyz")
-    with naming(path):
-        need_file(path)
+    with prefix_errors(path):
+        require_file(path)
         found = _text_points(path, columns) if is_text else _mesh(path)
         if not found.GetNumberOfPoints():
-            raise VolumeError("has no points")
+            raise VolumeError("the file has no points")
     points, vertices = vtkPolyData(), vtkVertexGlyphFilter()
     points.SetPoints(found.GetPoints())
     if columns == 5:
@@ -57,10 +59,7 @@ def _vertices(path, columns):
 
 
 def _text_points(path, columns):
-    """Return the points of lines of numbers between blanks or commas; # begins a comment."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonCore import vtkPoints
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    """Return points from lines of numbers separated by blanks or commas; # starts a comment."""
     rows, is_first = [], True
     with open(path, encoding="utf-8-sig", errors="replace") as lines:
         for number, line in enumerate(lines, 1):
@@ -78,7 +77,7 @@ def _text_points(path, columns):
                 if not np.isfinite(row[-1]):
                     raise VolumeError("line %d: '%s' is not a number" % (number, word))
             if not 3 <= len(row) <= columns:
-                raise VolumeError("line %d: not three %snumbers"
+                raise VolumeError("line %d: expected three %snumbers"
                                   % (number, "" if columns == 3 else "to five "))
             rows.append(row + [0, 0, 0, 1, 0][len(row):])
     table, result, points = np.array(rows, float).reshape(-1, 5), vtkPolyData(), vtkPoints()
@@ -92,11 +91,9 @@ def _text_points(path, columns):
 
 
 def _mesh(path):
-    """Return the vtkPolyData of a file. VTK's readers run in a worker: damaged files crash them."""
-    from vtkmodules.util.numpy_support import numpy_to_vtk
-    from vtkmodules.vtkCommonDataModel import vtkPolyData
+    """Return the vtkPolyData of a file, read in a worker, as VTK crashes on damaged files."""
     from vtkmodules.vtkParallelCore import vtkCommunicator
-    need_file(path)
+    require_file(path)
     if not os.path.exists(path):
         raise VolumeError("no such file")
     content, mesh = in_worker("volumic.reading.points:load", path), vtkPolyData()
@@ -105,9 +102,7 @@ def _mesh(path):
 
 
 def load(path):
-    """Return a mesh, which is checked, as VTK serializes it."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkCharArray
+    """Return a validated mesh, serialized by VTK, in the worker."""
     from vtkmodules.vtkIOLegacy import vtkPolyDataReader
     from vtkmodules.vtkIOGeometry import vtkOBJReader, vtkSTLReader
     from vtkmodules.vtkIOPLY import vtkPLYReader
@@ -119,34 +114,34 @@ def load(path):
                ".vtk": (vtkPolyDataReader, None)}
     suffix = os.path.splitext(path)[1].lower()
     if suffix not in readers:
-        raise VolumeError("is none of the meshes that are read: " + " ".join(readers))
+        raise VolumeError("unknown mesh format; use one of " + " ".join(readers))
     reader, count = readers[suffix]
     expected = count(path) if count else None
     mesh = updated(reader(), path)
     points = vtk_to_numpy(mesh.GetPoints().GetData())
     if not np.isfinite(points).all():
-        raise VolumeError("is damaged: a point is not finite")
+        raise VolumeError("the file is damaged: a point is not finite")
     for cells in (mesh.GetVerts(), mesh.GetLines(), mesh.GetPolys(), mesh.GetStrips()):
         offsets, corners = (vtk_to_numpy(array).astype(np.int64) for array in (
             cells.GetOffsetsArray(), cells.GetConnectivityArray()))
         if len(offsets) and (offsets[-1] != len(corners) or (np.diff(offsets) < 0).any()):
-            raise VolumeError("is damaged: its cells overlap in the file")
+            raise VolumeError("the file is damaged: cell offsets are inconsistent")
         if len(corners) and not 0 <= corners.min() <= corners.max() < len(points):
-            raise VolumeError("is damaged: a cell has point %d, there are %d" % (
+            raise VolumeError("the file is damaged: a cell has point %d of %d points" % (
                 corners.min() if corners.min() < 0 else corners.max(), len(points)))
     if expected is not None and mesh.GetNumberOfPolys() != expected:
-        raise VolumeError("the file is cut off or damaged: it has %d polygons, its header requires "
-                          "%d" % (mesh.GetNumberOfPolys(), expected))
+        raise VolumeError("the file is truncated or damaged: it has %d polygons, its header "
+                          "requires %d" % (mesh.GetNumberOfPolys(), expected))
     content = vtkCharArray()
     vtkCommunicator.MarshalDataObject(mesh, content)
     return np.array(vtk_to_numpy(content))
 
 
 def _check_vtp(path):
-    """Decode all arrays: VTK's reader makes zeros of those that are too short."""
+    """Decode all arrays, as VTK fills truncated ones with zeros. Return the number of polygons."""
     file = XmlFile(path)
     if file.kind != "PolyData" or not file.pieces:
-        raise VolumeError("it holds %s, and no surface" % (file.kind or "no data of VTK"))
+        raise VolumeError("the file has %s, not a surface" % (file.kind or "no VTK data"))
     sizes = {"Points": "NumberOfPoints", "PointData": "NumberOfPoints"}
     for array in file.arrays:
         count = None
@@ -158,7 +153,7 @@ def _check_vtp(path):
 
 
 def _count_stl(path):
-    """Return the number of triangles of a binary STL file, or None of a text."""
+    """Return the number of triangles of a binary STL file; None for text."""
     size = os.path.getsize(path)
     with open(path, "rb") as stream:
         head = stream.read(84)
@@ -166,20 +161,20 @@ def _count_stl(path):
         return None
     triangles = int.from_bytes(head[80:], "little")
     if size < 84 + 50 * triangles:
-        raise VolumeError("the file is cut off: it has %d bytes, its header requires %d"
+        raise VolumeError("the file is truncated: it has %d bytes, its header requires %d"
                           % (size, 84 + 50 * triangles))
     return triangles
 
 
 def _count_ply(path):
-    """Return the number of faces of a PLY file; VTK's reader does not see that it is cut off."""
+    """Return the number of faces of a PLY file. VTK's reader does not detect truncated files."""
     with open(path, "rb") as stream:
         head, end, body = stream.read().partition(b"end_header")
     body = body[body.find(b"\n") + 1:]
     elements = re.findall(rb"(?m)^element +(\w+) +(\d+)", head)
     if not end or [name for name, _ in elements] != [b"vertex", b"face"]:
-        raise VolumeError("has no points, or its header is damaged: a surface has the elements "
-                          "vertex and face")
+        raise VolumeError("no points, or invalid header: a surface has the elements vertex and "
+                          "face")
     vertices, faces = (int(count) for _, count in elements)
     widths = {b"char": 1, b"int8": 1, b"short": 2, b"int16": 2, b"double": 8, b"float64": 8}
     kinds = re.findall(rb"(?m)^property +u?(?!list)(\w+)", head.partition(b"element face")[0])
@@ -187,6 +182,6 @@ def _count_ply(path):
     if b"format ascii" in head:
         need, have = vertices + faces, len(body.splitlines())
     if have < need:
-        raise VolumeError("the file is cut off: %d vertices and %d faces do not fit into it"
+        raise VolumeError("the file is truncated: it is too short for %d vertices and %d faces"
                           % (vertices, faces))
     return faces

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Volume, which all readers return, the choices of the caller, and the checks of both."""
+"""Volume, the result of all readers; Choice, the options of read(); and checks of both."""
 from __future__ import annotations
 
 import contextlib
@@ -22,7 +22,7 @@ _UNITS = {"metre": "m", "centimetre": "cm", "millimetre": "mm", "micrometre": "u
 
 
 def unit_of(name):
-    """Return the key of METERS for a unit of length, or "" for an unknown one."""
+    """Return the key of METERS for a unit of length; "" if it is unknown."""
     name = str(name or "").strip()
     lower = name.lower().replace("meter", "metre")
     unit = _UNITS.get(lower) or _UNITS.get(lower.rstrip("s"), "")
@@ -31,49 +31,51 @@ def unit_of(name):
 
 @dataclasses.dataclass
 class Label:
-    """A named label."""
+    """A label with a name."""
     value: int
     name: str = ""
     color: tuple | None = None  # r, g, b in 0..1
-    layer: int = 0              # component of the array that holds it
+    layer: int = 0              # component of the array
 
 
 @dataclasses.dataclass
 class Choice:
-    """Which part of a file is read, and how."""
+    """Options of read()."""
     series: object = None       # number or UID of a DICOM series
-    time: int | None = None     # number of the volume
-    component: int | None = None  # -1: all (their magnitude)
+    time: int | None = None     # index of the volume
+    component: int | None = None  # -1: magnitude
     spacing: tuple | None = None  # replaces that of the file
-    raw: str | None = None      # the text of --raw
-    labels: bool = False        # values are labels: never interpolated
+    raw: str | None = None      # see --raw
+    labels: bool = False        # values are labels, never interpolated
     resampling: bool = True     # False: irregular grids are an error
-    array: str | None = None    # name of an array of .vti, .vtk
-    layers: bool = False        # overlapping masks become components; Label.layer names them
-    tell: object = None         # callable(str) for warnings
-    times: int = 1              # set by one_of_times(): how many volumes the file has
+    array: str | None = None    # name of the array
+    layers: bool = False        # overlapping masks become components, see Label.layer
+    times: int = 1              # number of volumes in the file, set by one_of_times()
 
 
 @dataclasses.dataclass
 class Volume:
-    """Voxels and their positions: point(i, j, k) = origin + direction @ (spacing * (i, j, k))."""
+    """Voxels and their positions: point(i, j, k) = origin + direction @ (spacing * (i, j, k)).
+
+    It unpacks to array, spacing, origin of the first voxel, direction, space, unit, names.
+    """
     array: np.ndarray           # [z, y, x] or [component, z, y, x]
     spacing: tuple = (1., 1., 1.)  # x, y, z
     origin: tuple = (0., 0., 0.)
     direction: np.ndarray = dataclasses.field(default_factory=lambda: np.eye(3))
-    space: str = ""             # sides of the body the axes point to, such as 'RAS'; '' unknown
-    unit: str = ""              # a key of METERS; '' unknown
+    space: str = ""             # directions of the world axes, such as 'RAS'; '' unknown
+    unit: str = ""              # key of METERS; '' unknown
     labels: list = dataclasses.field(default_factory=list)
     warnings: list = dataclasses.field(default_factory=list)
-    components: str = ""        # '', 'vector', 'color', or what they are: one must be chosen
+    components: str = ""        # kind: '', 'vector', 'color', or one that requires a choice
     times: int = 1
-    resampling: str = ""        # how the file was made a regular grid; '' it is one
+    resampling: str = ""        # description of the resampling; '' none
     name: str = ""              # of the array
     start: tuple = (0, 0, 0)    # index i, j, k of the first voxel
 
     @property
     def names(self):
-        """Return {value: name} of the labels."""
+        """Names of the labels by value."""
         return {label.value: label.name for label in self.labels if label.name}
 
     def __iter__(self):
@@ -82,36 +84,34 @@ class Volume:
                      self.unit, self.names))
 
     def scalars(self, component=None):
-        """Return the values [z, y, x] of a component; -1 or None: the magnitude of all.
-
-        None is an error where the components are no vector."""
+        """Return the values [z, y, x] of a component. -1 is the magnitude; None is the magnitude of
+        vectors and colours, and otherwise an error."""
         count = 1 if self.array.ndim == 3 else len(self.array)
         if component is not None and component >= count:
-            raise VolumeError("there is no component %d; the volume has %d: 0 to %d"
+            raise VolumeError("component %d is out of range; the volume has %d components, 0 to %d"
                               % (component, count, count - 1))
         if self.array.ndim == 3:
             return self.array
         if component is None and self.components not in ("", "vector", "color"):
             raise VolumeError(
-                "the %d numbers of each voxel are no vector (%s); choose one with --component N, "
-                "0 to %d (-1: their magnitude)" % (count, self.components, count - 1))
+                "voxels have %d components (%s) that are not a vector; choose one with "
+                "--component N, 0 to %d (-1: magnitude)" % (count, self.components, count - 1))
         if component is None or component < 0:
             return np.sqrt(sum(np.square(part, dtype=np.float64) for part in self.array))
         return self.array[component]
 
 
 def checked(volume, choice):
-    """Return the volume with native numbers and the chosen component.
-
-    Throw VolumeError if its sizes or positions are not those of a volume."""
+    """Return the volume in native byte order, with the requested component. Raise VolumeError if
+    its shape, type or position is invalid."""
     array = volume.array
     if array.dtype.kind == "c":
         array = np.stack([array.real, array.imag])
         volume.components = "vector"
     if array.ndim not in (3, 4) or not all(array.shape):
-        raise VolumeError("the sizes %s are not those of a volume" % text_of(array.shape))
+        raise VolumeError("dimensions %s are not those of a volume" % text_of(array.shape))
     if array.dtype.kind not in "uifb":
-        raise VolumeError("voxels of type %s cannot be read" % array.dtype)
+        raise VolumeError("voxels of type %s are not supported" % array.dtype)
     if array.ndim == 4 and len(array) == 1:
         array = array[0]
     volume.array = array
@@ -120,7 +120,7 @@ def checked(volume, choice):
         volume.components = ""
     kind = array.dtype.kind + str(min(array.dtype.itemsize, 8))
     kind = {"b1": "u1", "f2": "f4"}.get(kind, kind)
-    if array.dtype != np.dtype(kind):  # also of another byte order
+    if array.dtype != np.dtype(kind):  # includes byte order
         volume.array = array.view(kind) if kind == "u1" else array.astype(kind)
     volume.spacing = tuple(float(s) for s in (choice.spacing or volume.spacing))
     volume.origin = tuple(float(c) for c in volume.origin)
@@ -130,7 +130,7 @@ def checked(volume, choice):
 
 
 def check_positions(volume):
-    """Throw VolumeError unless doubles can represent the positions of all voxels."""
+    """Raise VolumeError unless doubles can represent the positions of all voxels."""
     if not (np.isfinite(volume.spacing).all() and min(volume.spacing) > 0
             and np.isfinite(volume.direction).all()):
         raise VolumeError("the spacing %s is not positive and finite; give --spacing X,Y,Z"
@@ -147,8 +147,8 @@ def check_positions(volume):
 
 
 @contextlib.contextmanager
-def naming(path):
-    """Turn all errors into VolumeErrors that begin with the name of this file."""
+def prefix_errors(path):
+    """Convert all errors to a VolumeError that begins with the file name."""
     try:
         yield
     except Exception as error:  # pylint: disable=broad-except
@@ -157,24 +157,24 @@ def naming(path):
                           "%s: %s" % (path, text)) from None
 
 
-def need_file(path):
-    """Throw VolumeError for a pipe or a device, on which programs wait."""
+def require_file(path):
+    """Raise VolumeError for pipes and devices, on which reading would block."""
     if os.path.exists(path) and not (os.path.isfile(path) or os.path.isdir(path)):
-        raise VolumeError("%s: a pipe or a device; a file is needed" % path)
+        raise VolumeError("%s: a pipe or a device; give a regular file" % path)
 
 
 def failure_of(error):
-    """Return the VolumeError of one line for any exception of a library."""
+    """Return a one-line VolumeError for an exception of a library."""
     if isinstance(error, VolumeError):
         return error
     text = " ".join(str(error).split())[:300] or type(error).__name__
     if isinstance(error, MemoryError) or getattr(error, "errno", 0) == errno.ENOMEM:
-        text = "not enough memory to read it; crop it, or resample it to fewer voxels"
+        text = "not enough memory to read the volume; crop it or resample it to fewer voxels"
     elif isinstance(error, EOFError):
-        text = "the file is cut off: its data end too early; copy it again"
+        text = "the file is truncated; copy it again"
     elif isinstance(error, (zlib.error, gzip.BadGzipFile)) or text.startswith(
             ("Invalid data stream", "zlib error")):
-        text = "the packed data are damaged (%s); copy the file again" % text
+        text = "the compressed data are damaged (%s); copy the file again" % text
     elif isinstance(error, ImportError) and error.name:
         module = error.name.split(".")[0]
         package = "python3-" + {"PIL": "pil", "vtkmodules": "vtk9"}.get(module, module)
@@ -187,10 +187,10 @@ def failure_of(error):
 
 
 def plain_name(text):
-    """Return the name of a label without control characters and blanks at its ends."""
+    """Return a label name without control characters and surrounding blanks."""
     return "".join(c if c.isprintable() else " " for c in text).strip()
 
 
 def text_of(numbers, separator=" x "):
-    """Return numbers as text: '3 x 4 x 5'."""
+    """Return numbers as text, such as "3 x 4 x 5"."""
     return separator.join("%.15g" % n for n in numbers)

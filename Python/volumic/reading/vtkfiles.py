@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Images of VTK: .vti, .pvti and .vtr; .vtk and .vtkhdf by VTK's readers, in a worker."""
+"""VTK images: .vti, .pvti and .vtr; .vtk and .vtkhdf by VTK's readers in a worker process."""
 from __future__ import annotations
 
 import math
@@ -10,19 +10,18 @@ import re
 import numpy as np
 
 from ..errors import VolumeError
-from .grid import placed
-from .volume import Label, naming, unit_of
+from .grid import make_volume
+from .volume import Label, prefix_errors, unit_of
 from .vtkxml import XmlFile
 from .worker import in_worker
 
-_ADVICE = ", and no image; resample it to an image (ParaView's Resample To Image writes a .vti)"
+_ADVICE = ", not an image; convert it, for example by ParaView's filter Resample To Image"
 
 
 def read_xml(path, choice):
-    """Read .vti, .pvti or .vtr."""
     file = XmlFile(path)
     if file.kind not in ("ImageData", "PImageData", "RectilinearGrid"):
-        raise VolumeError("it holds %s%s" % (file.kind or "no data of VTK", _ADVICE))
+        raise VolumeError("the file has %s%s" % (file.kind or "no VTK data", _ADVICE))
     whole = _extent(file.grid, "WholeExtent")
     sizes = whole[1::2] - whole[::2] + 1
     files = [_piece(path, piece) for piece in file.pieces] if file.kind[0] == "P" else [file]
@@ -39,7 +38,7 @@ def read_xml(path, choice):
         lines = [a for a in file.arrays if a["parent"] == "Coordinates"]
         steps, origin = _regular([file.read(a, int(n)) for a, n in zip(lines, sizes)], whole)
     else:
-        grid = {**files[0].grid, **file.grid}  # VTK 9.1 writes the Direction into pieces only
+        grid = {**files[0].grid, **file.grid}  # VTK 9.1 writes Direction to pieces only
         spacing, origin, axes = ([float(n) for n in grid.get(key, default).split()]
                                  for key, default in (("Spacing", "1 1 1"), ("Origin", "0 0 0"),
                                                       ("Direction", "1 0 0 0 1 0 0 0 1")))
@@ -55,19 +54,19 @@ def read_xml(path, choice):
     return _volume(array, parent, steps, origin, fields, choice, name, whole)
 
 
-def choose_array(names, active, wanted):
-    """Return "PointData" or "CellData" and the name of the array to read."""
+def choose_array(names, active, requested):
+    """Return "PointData" or "CellData", and the name of the array to read."""
     for parent in ("PointData", "CellData"):
         found = [name for name in names[parent] if name != "vtkGhostType"]
-        name = wanted or active.get(parent) or (found[0] if len(found) == 1 else None)
+        name = requested or active.get(parent) or (found[0] if len(found) == 1 else None)
         if name in found:
             return parent, name
-        if found and not wanted:
+        if found and not requested:
             break
     listed = ", ".join(names["PointData"])
     raise VolumeError("%s; %s" % (
-        "no point array " + wanted if wanted else "the volume has no active scalars",
-        "point arrays: %s; choose one with --array" % listed if listed else
+        "no point array " + requested if requested else "the volume has no active scalars",
+        "choose one of the point arrays with --array: %s" % listed if listed else
         "there are no point arrays"))
 
 
@@ -79,23 +78,22 @@ def _shape(sizes, parent):
 def _extent(element, key):
     extent = np.array([int(n) for n in element.get(key, "").split()])
     if len(extent) != 6 or (extent[1::2] < extent[::2]).any() or np.abs(extent).max() >= 1 << 31:
-        raise VolumeError("its header is damaged, or the image is empty: %s is \"%s\""
+        raise VolumeError("invalid header or empty image: %s is \"%s\""
                           % (key, element.get(key, "")))
     return extent
 
 
 def _piece(path, piece):
-    """Open a piece of .pvti."""
     name = piece.get("Source", "")
-    with naming(name[:200]):
+    with prefix_errors(name[:200]):
         file = XmlFile(os.path.join(os.path.dirname(path), name))
         if file.kind != "ImageData" or not file.pieces:
-            raise VolumeError("it is no image")
+            raise VolumeError("not an image")
         return file
 
 
 def _parts(file, parent, name):
-    """Return (extent, values [z, y, x, component]) of an array in each piece of a file."""
+    """Return extent and values [z, y, x, component] of an array in each piece of a file."""
     parts = []
     for number, piece in enumerate(file.pieces):
         extent = _extent(piece, "Extent")
@@ -111,33 +109,33 @@ def _parts(file, parent, name):
 
 
 def _joined(parts, whole, shape):
-    """Return the values of pieces as one array."""
+    """Return the values of all pieces as one array."""
     count = parts[0][1].shape[3]
     if sum(values.size for _, values in parts) < math.prod(shape) * count:
-        raise VolumeError("its pieces do not cover the whole image")
+        raise VolumeError("the pieces do not cover the image")
     result, covered = np.empty((*shape, count), parts[0][1].dtype), np.zeros(shape, bool)
     for extent, values in parts:
         begin = (extent[::2] - whole[::2])[::-1]
-        place = tuple(slice(a, a + n) for a, n in zip(begin, values.shape))
-        if (begin < 0).any() or (*covered[place].shape, count) != values.shape:
-            raise VolumeError("its header is damaged: a piece is outside the whole image")
-        result[place], covered[place] = values, True
+        region = tuple(slice(a, a + n) for a, n in zip(begin, values.shape))
+        if (begin < 0).any() or (*covered[region].shape, count) != values.shape:
+            raise VolumeError("invalid header: a piece is outside the image")
+        result[region], covered[region] = values, True
     if not covered.all():
-        raise VolumeError("its pieces do not cover the whole image")
+        raise VolumeError("the pieces do not cover the image")
     return result
 
 
 def _regular(lines, whole):
-    """Return the steps and the origin of a rectilinear grid whose distances are even."""
+    """Return steps and origin of a rectilinear grid with uniform spacing."""
     gaps = [np.diff(line.astype(float)) for line in lines]
     if len(lines) != 3 or any(len(gap) and np.ptp(gap) > 1e-3 * abs(gap.mean()) for gap in gaps):
-        raise VolumeError("it holds a rectilinear grid with uneven distances" + _ADVICE)
+        raise VolumeError("the file has a rectilinear grid of variable spacing" + _ADVICE)
     steps = [gap.mean() if len(gap) else 1. for gap in gaps]
     return np.diag(steps), [line[0] - s * n for line, s, n in zip(lines, steps, whole[::2])]
 
 
 def _volume(array, parent, steps, origin, fields, choice, name, whole):
-    """Return the Volume; field data of the command give space, unit and labels."""
+    """Return the Volume. Space, unit and labels are in field data written by the command."""
     cells = .5 * (whole[1::2] > whole[::2]) * (parent == "CellData")
     space, unit = (str(fields[key][0]) if len(fields.get(key, ())) else "" for key in
                    ("Axes", "LengthUnit"))
@@ -152,21 +150,20 @@ def _volume(array, parent, steps, origin, fields, choice, name, whole):
                     0 if layers is None else int(layers[i][0]))
               for i, value in enumerate(values) if abs(value) < 1 << 31]
     array = array[..., 0] if array.shape[3] == 1 else np.moveaxis(array, 3, 0)
-    return placed(array, steps, np.array(origin) + steps @ cells,
-                  space if re.fullmatch("[LRAPSI]{3}", space) else "", unit_of(unit), choice,
-                  labels=labels, name=name, components="vector" if array.ndim == 4 else "",
-                  start=tuple(whole[::2].tolist()))
+    return make_volume(array, steps, np.array(origin) + steps @ cells,
+                       space if re.fullmatch("[LRAPSI]{3}", space) else "", unit_of(unit), choice,
+                       labels=labels, name=name, components="vector" if array.ndim == 4 else "",
+                       start=tuple(whole[::2].tolist()))
 
 
 def read_by_vtk(path, choice):
-    """Read .vtk or .vtkhdf."""
     found = in_worker("volumic.reading.vtkfiles:load", path, choice.array)
     array, parent, steps, origin, fields, name, whole = found
     return _volume(array, parent, steps, origin, fields, choice, name, whole)
 
 
-def load(path, wanted):
-    """Return what _volume() takes, read by VTK."""
+def load(path, requested):
+    """Return the arguments of _volume(), read by VTK, in the worker."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
     with open(path, "rb") as stream:
         if stream.read(4) == b"\x89HDF":
@@ -176,12 +173,13 @@ def load(path, wanted):
     image = updated(Reader(), path)
     kind = image.GetClassName()[3:]
     if kind not in ("StructuredPoints", "ImageData", "RectilinearGrid"):
-        raise VolumeError("it holds %s%s" % (kind, _ADVICE))
+        raise VolumeError("the file has %s%s" % (kind, _ADVICE))
     data = {"PointData": image.GetPointData(), "CellData": image.GetCellData()}
     parent, name = choose_array(
         {p: [each.GetArrayName(n) or "" for n in range(each.GetNumberOfArrays())]
          for p, each in data.items()},
-        {p: each.GetScalars().GetName() for p, each in data.items() if each.GetScalars()}, wanted)
+        {p: each.GetScalars().GetName() for p, each in data.items() if each.GetScalars()},
+        requested)
     whole = np.array(image.GetExtent())
     array = vtk_to_numpy(data[parent].GetArray(name)).reshape(
         *_shape(np.array(image.GetDimensions()), parent), -1)
@@ -201,7 +199,7 @@ def load(path, wanted):
 
 
 def updated(reader, path):
-    """Return the output of a reader of VTK; VolumeError if it, or one in it, reports an error."""
+    """Return the output of a VTK reader. Raise VolumeError if the reader reports an error."""
     from vtkmodules.vtkCommonCore import vtkOutputWindow, vtkStringOutputWindow
     window = vtkStringOutputWindow()
     vtkOutputWindow.SetInstance(window)
@@ -212,5 +210,5 @@ def updated(reader, path):
               re.split("(?m)^(?=ERROR|Warning|Generic)", window.GetOutput())
               if text[:7] in ("ERROR: ", "Generic") and "InformationKey" not in text]  # NaN ranges
     if errors or output is None or not output.GetNumberOfPoints():
-        raise VolumeError("VTK cannot read it: " + (errors or ["it holds no data"])[0][-200:])
+        raise VolumeError("VTK cannot read the file: " + (errors or ["no data"])[0][-200:])
     return output

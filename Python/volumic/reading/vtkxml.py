@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""XML files of VTK. Its own readers crash on damaged files, accept some that are cut off, and hold
-all arrays in memory; here arrays are checked, and mapped unless they are packed."""
+"""VTK XML files. VTK's readers crash on damaged files, accept some truncated ones, and load all
+arrays. Here arrays are checked, and memory-mapped unless compressed."""
 from __future__ import annotations
 
 import binascii
@@ -19,7 +19,7 @@ _TYPES = {"String": "i1", **{kind + str(8 * size): kind[0].lower() + str(size)
 
 
 class XmlFile:
-    """The pieces and arrays of a file, with their attributes; arrays are decoded by read()."""
+    """The pieces and arrays of a file with their attributes. read() decodes an array."""
 
     def __init__(self, path):
         with open(path, "rb") as stream:
@@ -33,7 +33,7 @@ class XmlFile:
         try:
             parser.Parse(self.data if head < 0 else self.data[:head], head < 0)
         except expat.ExpatError as error:
-            raise VolumeError("the file is cut off or damaged: its XML cannot be parsed (%s)"
+            raise VolumeError("the file is truncated or damaged: invalid XML (%s)"
                               % error) from None
         self.kind = self.root.get("type", "")
         self.order = ">" if self.root.get("byte_order") == "BigEndian" else "<"
@@ -42,8 +42,8 @@ class XmlFile:
             begin = self.data.find(b"_", head, head + 4096) + 1
             end = self.data.rfind(b"</AppendedData>")
             if not 0 < begin <= end or self.data[-4096:].rstrip()[-10:] != b"</VTKFile>":
-                raise VolumeError("the file is cut off: its appended data do not end; copy it "
-                                  "again")
+                raise VolumeError("the file is truncated: the appended data are incomplete; copy "
+                                  "it again")
             self.is_base64 = b'"base64"' in self.data[head:begin]
             self.appended = memoryview(self.data)[begin:end]
             self.offsets = sorted({int(a["offset"]) for a in self.arrays if "offset" in a})
@@ -51,7 +51,7 @@ class XmlFile:
     def _start(self, name, values):
         self._open.append(name)
         if len(self._open) > 64:
-            raise VolumeError("its header is damaged: too many elements within elements")
+            raise VolumeError("invalid header: elements are nested too deeply")
         if name == "VTKFile":
             self.root = values
         elif name == self.root.get("type"):
@@ -69,7 +69,7 @@ class XmlFile:
             self.arrays[-1]["text"].append(text)
 
     def read(self, array, count=None):
-        """Return the values of an array; VolumeError unless there are `count`."""
+        """Return the values of an array. Raise VolumeError unless there are `count`."""
         try:
             dtype = np.dtype(self.order + _TYPES[array["type"]])
             need = None if count is None else count * dtype.itemsize
@@ -77,45 +77,45 @@ class XmlFile:
                 words = "".join(array["text"]).split()
                 values = np.array(words or [0]).astype(dtype)[:len(words)]
                 if count is not None and len(values) != count:
-                    raise ValueError("it has %d numbers, %d are needed" % (len(values), count))
+                    raise ValueError("%d numbers instead of %d" % (len(values), count))
                 return values
             if array["format"] == "appended":
                 at = int(array["offset"])
                 data = self.appended[at:min([o for o in self.offsets if o > at] or [None])]
-                raw, used = self._unpacked(data, self.is_base64, need)
+                raw, used = self._decompressed(data, self.is_base64, need)
             else:
                 data = memoryview("".join(array["text"]).strip().encode("ascii"))
-                raw, used = self._unpacked(data, True, need)
+                raw, used = self._decompressed(data, True, need)
             if len(data) - used > 4096 or bytes(data[used:]).strip():
-                raise ValueError("%d bytes too many follow it" % (len(data) - used))
+                raise ValueError("%d extra bytes follow" % (len(data) - used))
             return np.frombuffer(raw, dtype)
         except Exception as error:  # pylint: disable=broad-except
-            raise VolumeError("the file is cut off or damaged: its array %s cannot be read: %s; "
-                              "copy it again" % (array["name"], error or "it ends too early")
+            raise VolumeError("the file is truncated or damaged: array %s cannot be read: %s; "
+                              "copy the file again" % (array["name"], error or "truncated")
                               ) from None
 
-    def _unpacked(self, data, is_base64, need):
-        """Return the bytes of an array, and how many bytes at the begin of the data encode it."""
+    def _decompressed(self, data, is_base64, need):
+        """Return the bytes of an array, and how many bytes of the data encode it."""
         wide = np.dtype(self.header).itemsize
-        packed = self.root.get("compressor", "")
-        if not packed:
+        compressor = self.root.get("compressor", "")
+        if not compressor:
             size = int(np.frombuffer(_decoded(data, is_base64, wide), self.header)[0])
             if need not in (None, size):
-                raise ValueError("it has %d bytes, %d are needed" % (size, need))
+                raise ValueError("%d bytes instead of %d" % (size, need))
             return _decoded(data, is_base64, wide + size)[wide:], _encoded(wide + size, is_base64)
         head = np.frombuffer(_decoded(data, is_base64, 3 * wide), self.header)
         blocks, size, last = head.tolist()
         whole = (blocks - bool(last)) * size + last
         if blocks and not size or last > size or need not in (None, whole):
-            raise ValueError("it is packed in %d blocks of %d bytes, the last one of %d; %s bytes "
-                             "are needed" % (blocks, size, last, need))
+            raise ValueError("%d compressed blocks of %d bytes, the last one of %d, instead of %s "
+                             "bytes" % (blocks, size, last, need))
         start = wide * (3 + blocks)
         sizes = np.frombuffer(_decoded(data, is_base64, start), self.header)[3:].tolist()
-        head = _encoded(start, is_base64)  # base64 encodes sizes and blocks one after the other
+        head = _encoded(start, is_base64)  # in base64, sizes and blocks are encoded separately
         plain = _decoded(data[head:], is_base64, sum(sizes))
         result, at = bytearray(), 0
         for length, expected in zip(sizes, [size] * (blocks - 1) + [last or size]):
-            block = _unpack(packed, plain[at:at + length], expected)
+            block = _decompress(compressor, plain[at:at + length], expected)
             if len(block) != expected:
                 raise ValueError("a block of %d bytes has %d" % (expected, len(block)))
             result += block
@@ -124,12 +124,12 @@ class XmlFile:
 
 
 def _encoded(size, is_base64):
-    """Return how many bytes encode so many."""
+    """Return the number of bytes that encode `size` bytes."""
     return -(-size // 3) * 4 if is_base64 else size
 
 
 def _decoded(data, is_base64, size):
-    """Return the first bytes that the data encode; EOFError if there are too few."""
+    """Return the first `size` encoded bytes. Raise EOFError if there are fewer."""
     data = data[:_encoded(size, is_base64)]
     plain = memoryview(binascii.a2b_base64(data)) if is_base64 else data
     padding = bytes(data[-2:]).count(b"=") if is_base64 else 0
@@ -138,17 +138,17 @@ def _decoded(data, is_base64, size):
     return plain[:size]
 
 
-def _unpack(name, data, size):
-    """Return the at most `size` bytes of a packed block."""
+def _decompress(name, data, size):
+    """Return at most `size` bytes of a compressed block."""
     if name == "vtkLZ4DataCompressor":
         from vtkmodules.vtkIOCore import vtkLZ4DataCompressor
         machine = vtkLZ4DataCompressor()
-        machine.AddObserver("ErrorEvent", lambda *_: None)  # it prints otherwise
-        array = machine.Uncompress(bytes(data), len(data), size)  # others than bytes are slow
+        machine.AddObserver("ErrorEvent", lambda *_: None)  # suppresses its output
+        array = machine.Uncompress(bytes(data), len(data), size)  # bytes are fastest
         if array is None:
             raise EOFError
         block = bytes(array)
-        array.Initialize()  # VTK 9.1 leaks the array, but not its memory then
+        array.Initialize()  # VTK 9.1 leaks the array; this releases its memory
         return block
     machine = {"vtkZLibDataCompressor": zlib.decompressobj,
                "vtkLZMADataCompressor": lzma.LZMADecompressor}[name]()

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Writing of surfaces, tetrahedra, volumes and tables, each in the format of the suffix.
+"""Writers of surfaces, tetrahedral meshes, volumes and tables. The suffix determines the format.
 
-A file replaces the old one when it is complete, see files.py. All functions throw Failure that
-names the file if it cannot be written.
+A file replaces an existing one once it is complete, see files.py. All functions raise Failure,
+which names the file, if it cannot be written.
 """
 
 from __future__ import annotations
@@ -16,95 +16,96 @@ from ..errors import Failure, UsageError
 from . import files, surfaces
 from .regions import surface_labels
 from .scenes import glb, three_mf
-from .solids import BY_MESHIO, FOR_MESHERS, TETRAHEDRA, write_boundary, write_solid
 from .surfaces import Show, silent
-from .tetrahedra import SolidMaker, needs_mesher
+from .tetrahedra import TetrahedralMesher, needs_mesher
+from .tetrahedral_files import (
+    MESHER_SUFFIXES, MESHIO_FORMATS, TETRAHEDRAL_SUFFIXES, write_boundary, write_tetrahedra)
 
-Tell = Callable[[str], Any]
+Warn = Callable[[str], Any]
 
 SCENES = {".glb": glb, ".3mf": three_mf}
-SUFFIXES = (*surfaces.FORMATS, *SCENES, ".vtu", ".inp", *FOR_MESHERS, *BY_MESHIO)
+SUFFIXES = (*surfaces.FORMATS, *SCENES, ".vtu", ".inp", *MESHER_SUFFIXES, *MESHIO_FORMATS)
 
-_reported: set[str] = set()  # reported once for all files
+_warned: set[str] = set()  # warnings given once
 
 
 def suffix_of(name: str) -> str:
-    """Return the suffix with a dot, in lower case."""
     return os.path.splitext(name)[1].lower()
 
 
 def check_surface_name(name: str) -> None:
-    """Throw UsageError if no writer has this suffix."""
+    """Raise UsageError if no writer has this suffix."""
     if suffix_of(name) not in SUFFIXES:
-        raise UsageError(f"{name}: no surface format has this suffix; known are "
+        raise UsageError(f"{name}: unknown suffix of a surface format; use one of "
                          f"{' '.join(SUFFIXES)}")
 
 
 def check_volume_name(name: str) -> None:
-    """Throw UsageError if the name is not one of a volume."""
     if suffix_of(name) != ".vti":
-        raise UsageError(f"{name}: a volume is written as .vti")
+        raise UsageError(f"{name}: volumes are written as .vti; change the suffix")
 
 
 def is_scene(name: str) -> bool:
-    """Return whether a file of this name holds several surfaces with their names and colors."""
+    """Return whether a format stores several surfaces with names and colours."""
     return suffix_of(name) in SCENES
 
 
-def is_of_solids(name: str) -> bool:
-    """Return whether a file of this name holds tetrahedra or is for meshers: of several labels it
-    holds one mesh."""
-    return suffix_of(name) in (*TETRAHEDRA, *FOR_MESHERS)
+def holds_volume_mesh(name: str) -> bool:
+    """Return whether a format is for tetrahedral meshes or input of meshers. Its files store one
+    mesh of all labels."""
+    return suffix_of(name) in (*TETRAHEDRAL_SUFFIXES, *MESHER_SUFFIXES)
 
 
-def write_surface(surface: Any, name: str, remark: str = "", solids: SolidMaker | None = None,
-                  tell: Tell = silent, progress: Show = silent) -> None:
-    """Write a surface, or interfaces of labels. The head of the file has our name, the space, the
-    unit and the `remark`. `solids` makes tetrahedra."""
+def write_surface(surface: Any, name: str, remark: str = "",
+                  mesher: TetrahedralMesher | None = None, warn: Warn = silent,
+                  progress: Show = silent) -> None:
+    """Write a surface, interfaces of labels, or a tetrahedral mesh of them by `mesher`. The file
+    header states version, coordinate system, unit and `remark`."""
     from .. import __version__
-    from ..geometry import fact
+    from ..geometry import field_text
     if is_scene(name):
         labels = surface_labels(surface)
-        write_scene([(labels[0].name if len(labels) == 1 else "surface", surface)], name, tell,
+        write_scene([(labels[0].name if len(labels) == 1 else "surface", surface)], name, warn,
                     progress)
         return
-    space, unit = fact(surface, "SPACE"), fact(surface, "LengthUnit")
+    space, unit = field_text(surface, "SPACE"), field_text(surface, "LengthUnit")
     head = (f"volumic {__version__}" + f", SPACE={space}" * bool(space)
             + f", unit {unit}" * bool(unit) + remark)
-    solids = solids or SolidMaker()
-    _report_losses([surface], name, tell)
+    mesher = mesher or TetrahedralMesher()
+    _warn_unsupported([surface], name, warn)
     with files.output_file(name) as path:
         if suffix_of(name) in surfaces.FORMATS:
             surfaces.write_pieces(path, surfaces.FORMATS[suffix_of(name)](surface, head, progress))
-        elif needs_mesher(name, solids.mesher):
-            write_solid(solids.make(surface, path, progress, tell), path, head)
+        elif needs_mesher(name, mesher.mesher):
+            write_tetrahedra(mesher.make(surface, path, progress, warn), path, head)
         else:
             write_boundary(surface, path, head)
 
 
-def write_scene(objects: Sequence[tuple[str, Any]], name: str, tell: Tell = silent,
+def write_scene(objects: Sequence[tuple[str, Any]], name: str, warn: Warn = silent,
                 progress: Show = silent) -> None:
-    """Write surfaces that are not empty, with their names, to one .glb or .3mf."""
+    """Write non-empty surfaces with their names to a .glb or .3mf file."""
     objects = [item for item in objects if item[1].GetNumberOfPoints() > 0]
     if not objects:
-        raise Failure(f"{name}: cannot be written (there is no surface)")
-    _report_losses([surface for _, surface in objects], name, tell)
+        raise Failure(f"{name}: cannot be written (all surfaces are empty)")
+    _warn_unsupported([surface for _, surface in objects], name, warn)
     _write(name, SCENES[suffix_of(name)](objects, progress))
 
 
-def write_blocks(blocks: Any, name: str, tell: Tell = silent, progress: Show = silent) -> None:
-    """Write blocks that are surfaces to a .vtm, with their files in a folder beside it."""
+def write_blocks(blocks: Any, name: str, warn: Warn = silent, progress: Show = silent) -> None:
+    """Write surfaces in blocks to a .vtm file and a folder next to it."""
     with files.output_file(name) as path:
         surfaces.write_vtm(blocks, path, progress)
     folder = os.path.splitext(os.path.realpath(name))[0]
     start = os.path.basename(folder) + "_"
-    report_old(folder, [f"{start}{i}.vtp" for i in range(blocks.GetNumberOfBlocks())], tell, start)
+    written = [f"{start}{i}.vtp" for i in range(blocks.GetNumberOfBlocks())]
+    warn_obsolete(folder, written, warn, start)
 
 
 def write_folder(blocks: Any, folder: str, prefix: str,
-                 number_of: Callable[[Any], int] | None = None, tell: Tell = silent) -> None:
-    """Write each block that is not empty to FOLDER/PREFIX-NUMBER.vtp; `number_of` gives the number
-    of a surface (default: that of the block). The folder is made."""
+                 number_of: Callable[[Any], int] | None = None, warn: Warn = silent) -> None:
+    """Write each non-empty block to FOLDER/PREFIX-NUMBER.vtp. The folder is created. `number_of`
+    returns the number of a surface (default: that of the block)."""
     written = []
     with files.output_folder(folder) as path:
         for i in range(blocks.GetNumberOfBlocks()):
@@ -112,16 +113,15 @@ def write_folder(blocks: Any, folder: str, prefix: str,
             if block is not None and block.GetNumberOfPoints() > 0:
                 written.append(f"{prefix}-{number_of(block) if number_of else i}.vtp")
                 surfaces.write_pieces(os.path.join(path, written[-1]), surfaces.vtp(block))
-    report_old(folder, written, tell, prefix + "-")
+    warn_obsolete(folder, written, warn, prefix + "-")
 
 
 def write_volume(image: Any, name: str, progress: Show = silent) -> None:
-    """Write a volume with all its arrays and field data."""
+    """Write a volume with all arrays and field data."""
     _write(name, surfaces.vti(image, progress))
 
 
 def write_table(table: Any, name: str) -> None:
-    """Write a .csv with a line of column names."""
     _write(name, surfaces.csv(table))
 
 
@@ -130,19 +130,20 @@ def _write(name: str, pieces: Iterable[bytes]) -> None:
         surfaces.write_pieces(path, pieces)
 
 
-def _report_losses(those: Sequence[Any], name: str, tell: Tell) -> None:
-    """Report what the format cannot hold: once for all files of a suffix."""
-    for text in (text for each in those for text in surfaces.losses(each, suffix_of(name))):
-        if text not in _reported:
-            _reported.add(text)
-            tell(f"{name}: {text}")
+def _warn_unsupported(written: Sequence[Any], name: str, warn: Warn) -> None:
+    """Warn once per format of data that it does not support."""
+    for surface in written:
+        for text in surfaces.unsupported_data(surface, suffix_of(name)):
+            if text not in _warned:
+                _warned.add(text)
+                warn(f"{name}: {text}")
 
 
-def report_old(folder: str, written: Sequence[str], tell: Tell, start: str = "",
-               suffix: str = ".vtp") -> None:
-    """Report files of an earlier run: those with such names that are not among the written ones."""
+def warn_obsolete(folder: str, written: Sequence[str], warn: Warn, start: str = "",
+                  suffix: str = ".vtp") -> None:
+    """Warn of files with matching names that are not written by this run."""
     old = sorted(name for name in (os.listdir(folder) if os.path.isdir(folder) else ())
                  if name.startswith(start) and name.endswith(suffix) and name not in written)
     if old:
-        tell(f"{folder}: files of an earlier run are there: {', '.join(old[:5])}"
-             f"{', ...' * (len(old) > 5)}; delete what is old")
+        warn(f"{folder}: files of an earlier run exist: {', '.join(old[:5])}"
+             f"{', ...' * (len(old) > 5)}; delete them if they are obsolete")

@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files that are complete or not there.
+"""Atomic writing of files.
 
-    with output_file("surface.stl") as path:     # in a hidden folder beside it
+    with output_file("surface.stl") as path:     # in a hidden folder next to it
         write(path)
 
-Whenever the process is killed, the old file or the new one is there, never a part of one. A killed
-process leaves the hidden folder (.volumic-XXXXXX). In all other cases the folder is removed.
+If the process is killed, either the old or the new file exists, never a part. Only then the hidden
+folder .volumic-XXXXXX remains.
 """
 
 from __future__ import annotations
@@ -29,18 +29,18 @@ HIDDEN = ".volumic-"  # prefix of the hidden folders
 
 
 class Failures(list[str]):
-    """Collects failures, so that one file that cannot be written does not stop the others."""
+    """Collects failures, so that the other files are still written."""
 
     @contextlib.contextmanager
     def collect(self) -> Iterator[None]:
-        """Keep the Failure of the block."""
+        """Store a Failure raised in the block."""
         try:
             yield
         except Failure as failure:
             self.append(str(failure))
 
-    def throw(self) -> None:
-        """Throw Failure with a line for each failure, if there is one."""
+    def raise_all(self) -> None:
+        """Raise Failure with one line per stored failure, if any."""
         if self:
             raise Failure("\n".join(self))
 
@@ -49,25 +49,24 @@ class Failures(list[str]):
 
 @contextlib.contextmanager
 def output_file(name: str) -> Iterator[str]:
-    """Return the path to write a file to. Throw Failure that names the file if it cannot be
-    written. A Failure of the block gets the name in front."""
-    with _naming(name), beside(name) as path:
+    """Return the path to write a file to. Raise Failure, which names the file, if it cannot be
+    written. The name is prepended to a Failure of the block."""
+    with _prefix_errors(name), temporary_path(name) as path:
         yield path
 
 
 @contextlib.contextmanager
 def output_folder(folder: str) -> Iterator[str]:
-    """Return the folder to write files to that are moved to `folder` together, see made_folder().
-    Throw Failure that names the folder."""
-    with made_folder(folder), _naming(folder), _hidden_folder(folder) as hidden:
+    """Return a folder whose files are moved to `folder` at the end. Raise Failure."""
+    with created_folder(folder), _prefix_errors(folder), _hidden_folder(folder) as hidden:
         yield hidden
         _publish(hidden, folder)
 
 
 @contextlib.contextmanager
-def beside(name: str | os.PathLike[str]) -> Iterator[str]:
-    """Like output_file(), but OSError is not replaced. A link is followed. Devices and pipes get
-    the whole file at the end. Files in a folder beside the path are moved, too."""
+def temporary_path(name: str | os.PathLike[str]) -> Iterator[str]:
+    """Like output_file(), but raises OSError. Links are followed. Devices and pipes get the
+    complete file at the end. Files in a subfolder next to the path are moved, too."""
     stream = is_stream(name)
     folder, base = os.path.split(name if stream else os.path.realpath(name))
     with _hidden_folder(tempfile.gettempdir() if stream else folder) as hidden:
@@ -81,8 +80,8 @@ def beside(name: str | os.PathLike[str]) -> Iterator[str]:
 
 
 def replace_file(name: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file. Throw OSError if it cannot be written."""
-    with beside(name) as path:
+    """Write a file. Raise OSError if it cannot be written."""
+    with temporary_path(name) as path:
         Path(path).write_bytes(content)
 
 
@@ -90,7 +89,7 @@ def write_text(text: str, name: str) -> None:
     """Write a text; `-` is the standard output. Bytes of file names that are not UTF-8 become the
     replacement character."""
     content = text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode()
-    with _naming("the standard output" if name == "-" else name):
+    with _prefix_errors("the standard output" if name == "-" else name):
         if name != "-":
             replace_file(name, content)
         else:
@@ -99,17 +98,17 @@ def write_text(text: str, name: str) -> None:
 
 
 @contextlib.contextmanager
-def made_folder(name: str) -> Iterator[None]:
-    """Make a folder and its parents. At the end remove those made here that are empty. Throw
-    Failure that names the folder if it cannot be made."""
-    made = [path for path in _with_parents(name) if not os.path.lexists(path)]
+def created_folder(name: str) -> Iterator[None]:
+    """Create a folder and its parents. At the end, remove those created here that are empty. Raise
+    Failure, which names the folder."""
+    created = [path for path in _with_parents(name) if not os.path.lexists(path)]
     try:
-        with _naming(name):
+        with _prefix_errors(name):
             os.makedirs(name, exist_ok=True)
         yield
     finally:
         with contextlib.suppress(OSError):
-            for folder in made:
+            for folder in created:
                 folder.rmdir()
 
 
@@ -119,8 +118,8 @@ def _with_parents(name: str) -> list[Path]:
 
 
 @contextlib.contextmanager
-def _naming(name: str) -> Iterator[None]:
-    """Errors become a Failure on one line that begins with the name, without the hidden folder."""
+def _prefix_errors(name: str) -> Iterator[None]:
+    """Convert errors to a one-line Failure that begins with the name, without the hidden folder."""
     try:
         yield
     except (OSError, MemoryError, Failure) as error:
@@ -133,7 +132,7 @@ def _naming(name: str) -> Iterator[None]:
 
 @contextlib.contextmanager
 def _hidden_folder(folder: str) -> Iterator[str]:
-    """A folder in `folder`: moving files out of it stays within one file system."""
+    """Return a temporary folder in `folder`, so that files can be moved within one file system."""
     try:
         hidden = tempfile.mkdtemp(prefix=HIDDEN, dir=folder)
     except (FileNotFoundError, NotADirectoryError) as error:
@@ -147,14 +146,13 @@ def _hidden_folder(folder: str) -> Iterator[str]:
 
 
 def _publish(hidden: str, folder: str) -> None:
-    """Move all files to `folder` once they are on the disk. Those in subfolders come first, because
-    the others name them. Files that are replaced pass on their owner and permissions, as far as
-    allowed."""
-    made = [path for path in Path(hidden).rglob("*") if path.is_file()]
-    for path in made:
+    """Move all files to `folder` after fsync. Subfolders come first, as the other files refer to
+    them. Owner and permissions of replaced files are kept if possible."""
+    created = [path for path in Path(hidden).rglob("*") if path.is_file()]
+    for path in created:
         with open(path, "rb") as file:
             os.fsync(file)
-    for path in sorted(made, key=lambda path: path.parent == Path(hidden)):
+    for path in sorted(created, key=lambda path: path.parent == Path(hidden)):
         target = folder / path.relative_to(hidden)
         target.parent.mkdir(exist_ok=True)
         with contextlib.suppress(OSError):
@@ -165,33 +163,35 @@ def _publish(hidden: str, folder: str) -> None:
 
 
 def is_stream(name: str | os.PathLike[str]) -> bool:
-    """Return whether this is a device or a pipe, such as /dev/stdout."""
+    """Return whether a path is a device or a pipe, such as /dev/stdout."""
     path = os.path.abspath(name)
     return bool(re.match("/(proc|dev(?!/shm/))/", path)) or (
         os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path))
 
 
-# ---- Before the work begins --------------------------------------------------------------------
+# ---- Checks before a run -----------------------------------------------------------------------
 
 class OutputName(NamedTuple):
-    """An output, as the command line names it."""
+    """An output of the command line."""
     name: str
-    form: str = "file"  # `blocks`: a .vtm, and STEM/STEM_... beside it; `folder`: of files
-    prefix: str = ""    # PREFIX-....vtp; `place`: a folder of files that are not known yet
+    # `file`; `blocks`: a .vtm and the files STEM/STEM_*; `folder`: files PREFIX-*.vtp;
+    # `label-folder`: files with names that are not known yet
+    kind: str = "file"
+    prefix: str = ""
 
     @property
     def file(self) -> str:
-        """The path of the file of this name; empty for folders."""
-        return os.path.realpath(self.name) if self.form in ("file", "blocks") else ""
+        """Path of the file; empty for folders."""
+        return os.path.realpath(self.name) if self.kind in ("file", "blocks") else ""
 
     @property
     def folder(self) -> str:
-        """The folder of an output of several files; empty for others."""
-        return {"file": "", "blocks": os.path.splitext(self.file)[0]}.get(self.form, self.name)
+        """Folder of an output with several files, otherwise empty."""
+        return {"file": "", "blocks": os.path.splitext(self.file)[0]}.get(self.kind, self.name)
 
     def replaces(self, names: Sequence[str]) -> list[str]:
-        """Return the files that would be replaced: its own, and in the folder those that exist or
-        are among `names`."""
+        """Return the files that would be replaced: the file itself, and files in the folder that
+        exist or are among `names`."""
         found = [self.file] if self.file else []
         if self.folder:
             folder = os.path.realpath(self.folder)
@@ -203,15 +203,15 @@ class OutputName(NamedTuple):
 
 
 def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
-    """Throw Failure that names the output unless files can be made in all folders, no file is
-    write-protected or a folder, and none is an input or another output, by whatever link."""
+    """Raise Failure, which names the output, if a folder or file is not writable, or a file is also
+    an input or another output."""
     taken = {_identity(name): f"the input {name}" for name in inputs}
     names = [output.file for output in outputs]
     tried: set[str] = set()
     for output in outputs:
         if is_stream(output.name):
             continue
-        with _naming(output.name):
+        with _prefix_errors(output.name):
             replaced = {_identity(path): path for path in output.replaces(names)}
             for file in filter(taken.get, replaced):
                 which = "it" if replaced[file] == output.file else replaced[file]
@@ -228,7 +228,7 @@ def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
 
 
 def _identity(path: str) -> object:
-    """The same for all names of a file."""
+    """Return a value that is equal for all names of a file."""
     try:
         return os.stat(path)[1:3]  # inode and device
     except OSError:

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Files of surfaces for meshers of tetrahedra: .msh (gmsh, MSH 4.1), .smesh and .poly (TetGen), and
-the names of sets in all such files. References: the manuals of gmsh and TetGen."""
+"""Input files of tetrahedral meshers: .msh (gmsh, MSH 4.1), .smesh and .poly (TetGen); names of
+sets. References: the manuals of gmsh and TetGen."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..messages import one_line
-from .regions import cell_array, find_regions, surface_labels
+from .regions import cell_array, find_regions, points_of, surface_labels
 
 SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")  # BoxFace 1 to 6
 OUTSIDE = 0
@@ -21,7 +21,7 @@ OUTSIDE = 0
 # ---- Names -------------------------------------------------------------------------------------
 
 class DistinctNames:
-    """Hands out names of which no two are equal, whatever their case."""
+    """Generates names that are unique regardless of case."""
 
     def __init__(self, separator: str, plain: Callable[[str], str], reserved: Iterable[str] = ()
                  ) -> None:
@@ -29,7 +29,7 @@ class DistinctNames:
         self.taken = {name.lower() for name in reserved}
 
     def take(self, name: str) -> str:
-        """The name in the characters of the format, with a number behind it if it is taken."""
+        """Return a name in the characters of the format, with a number appended if it is taken."""
         plain = free = self.plain(name)
         number = 2
         while free.lower() in self.taken:
@@ -38,42 +38,40 @@ class DistinctNames:
         return free
 
 
-def inp_word(name: str) -> str:
-    """A name of a set in Abaqus: letters, digits and underscores, the first one a letter. With two
-    of them and a number the name has fewer than 80 characters."""
-    word = "".join(c if c.isascii() and c.isalnum() else "_" for c in name.encode()[:30].decode(
+def abaqus_name(name: str) -> str:
+    """Return a valid Abaqus set name: ASCII letters, digits and underscores, starting with a
+    letter. With two of them and a number, a name has fewer than 80 characters."""
+    text = "".join(c if c.isascii() and c.isalnum() else "_" for c in name.encode()[:30].decode(
         "latin-1"))
-    return word if word[:1].isalpha() else "L_" + word
+    return text if text[:1].isalpha() else "L_" + text
 
 
-def gmsh_word(name: str) -> str:
-    """A name between the quotes of a physical group."""
+def gmsh_name(name: str) -> str:
     return one_line(name, 50).replace('"', "'")
 
 
 class SetNames(NamedTuple):
-    """The names of all sets of a file."""
+    """Names of all sets of a file."""
     labels: dict[int, str]
-    pairs: dict[tuple[int, int], str]  # of labels that touch; OUTSIDE comes second
-    parts: dict[int, str]              # sides of a box, 1 to 6, and caps, from 7 on
+    pairs: dict[tuple[int, int], str]  # adjacent labels; OUTSIDE is second
+    parts: dict[int, str]              # box faces 1 to 6, caps from 7
 
     @classmethod
     def of(cls, labels: dict[int, str], pairs: Iterable[tuple[int, int]], parts: Iterable[int],
            names: DistinctNames) -> SetNames:
-        """Labels keep their names; sides, caps and pairs of labels avoid them."""
+        """Return the names. Labels keep theirs; box faces, caps and pairs of labels avoid them."""
         own = {number: names.take(name) for number, name in labels.items()}
         called = {**own, OUTSIDE: names.take("outside")}
         plain, names.plain = names.plain, str
-        of_pairs = {(a, b): names.take(f"{called[a]}_to_{called[b]}") for a, b in pairs}
-        of_parts = {part: names.take(SIDES[part - 1] if part <= 6 else f"cap_{part - 6}")
-                    for part in sorted(parts)}
+        pair_names = {(a, b): names.take(f"{called[a]}_to_{called[b]}") for a, b in pairs}
+        part_names = {part: names.take(SIDES[part - 1] if part <= 6 else f"cap_{part - 6}")
+                      for part in sorted(parts)}
         names.plain = plain
-        return cls(own, of_pairs, of_parts)
+        return cls(own, pair_names, part_names)
 
 
 def cap_names(surface: Any) -> dict[int, str]:
-    """{number in the cell array Cap: name} of the caps of --ends marked; `cap_1` and so on, unless
-    a label has that name."""
+    """Return unique names of the caps of --ends marked by number, such as `cap_1`."""
     caps = cell_array(surface, "Cap")
     names = DistinctNames("_", str, [label.name for label in surface_labels(surface)])
     return {} if caps is None else {
@@ -81,7 +79,7 @@ def cap_names(surface: Any) -> dict[int, str]:
 
 
 def parts_of(surface: Any) -> np.ndarray:
-    """The part that each triangle is in: 0 none, a side of a box (1 to 6), or cap n (6 + n)."""
+    """Return the part of each triangle: 0 (none), box face (1 to 6), or 6 + number of the cap."""
     box, caps = cell_array(surface, "BoxFace"), cell_array(surface, "Cap")
     parts = np.zeros(surface.GetNumberOfPolys(), int) if box is None else box.astype(int)
     return parts if caps is None else np.where(caps > 0, 6 + caps, parts)
@@ -90,45 +88,38 @@ def parts_of(surface: Any) -> np.ndarray:
 # ---- Text --------------------------------------------------------------------------------------
 
 def rows(form: str, *columns: Any) -> str:
-    """Lines, each of a number of every column; columns of several numbers are spread."""
+    """Return one line per row of the columns, which may have several components."""
     lists = [part.tolist() for column in columns for part in np.atleast_2d(np.asarray(column).T)]
     return "".join(map((form + "\n").__mod__, zip(*lists)))
 
 
 def write_lines(path: str, *parts: str) -> None:
-    """Write a file of these parts."""
     with open(path, "w", encoding="utf-8", newline="\n") as file:
         for part in parts:
             file.write(part)
 
 
-def _points_of(data: Any) -> np.ndarray:
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    return vtk_to_numpy(data.GetPoints().GetData())
-
-
 def _digits(points: np.ndarray) -> str:
-    """The format of coordinates that are read back as the same numbers."""
+    """Return a format that preserves coordinates exactly."""
     return "%.9g" if points.dtype == np.float32 else "%r"
 
 
 # ---- Surfaces for meshers ----------------------------------------------------------------------
 
 class _Boundaries:
-    """The triangles of a surface in groups, each between two regions and of one part, which is 0
-    but on sides of a box and caps."""
+    """Triangles of a surface in groups of equal adjacent regions and part (0, box face or cap)."""
 
     def __init__(self, surface: Any) -> None:
-        self.points = _points_of(surface)
+        self.points = points_of(surface)
         self.regions = find_regions(surface)
         labels = self.regions.labels
         numbers = np.array([label.number for label in labels] + [OUTSIDE])
-        self.number = numbers[self.regions.label]  # of each region, that of its label
+        self.number = numbers[self.regions.label]  # label of each region
         self.parts = parts_of(surface)
         keys = np.stack([self.regions.behind, self.regions.in_front, self.parts], axis=1)
         self.groups, self.group = np.unique(keys, axis=0, return_inverse=True)
         self.group = self.group.ravel()
-        # A mark stands for a part, or for two labels that touch.
+        # One marker per part or pair of adjacent labels.
         ends = self.number[self.groups[:, :2]]
         self.kinds = [(0, 0, part) if part else (a, b, 0)
                       for (a, b), part in zip(ends.tolist(), self.groups[:, 2].tolist())]
@@ -137,25 +128,24 @@ class _Boundaries:
         self.names = SetNames.of(
             {label.number: label.name for label in labels},
             [kind[:2] for kind in self.marks if not kind[2]],
-            [kind[2] for kind in self.marks if kind[2]], DistinctNames(" ", gmsh_word))
+            [kind[2] for kind in self.marks if kind[2]], DistinctNames(" ", gmsh_name))
 
     def name(self, kind: tuple[int, int, int]) -> str:
-        """Of a mark."""
         return self.names.parts[kind[2]] if kind[2] else self.names.pairs[kind[:2]]
 
 
 def write_msh(surface: Any, path: str, remark: str = "") -> None:
-    """MSH 4.1 of the triangles: physical surfaces are parts and pairs of labels, physical volumes
-    labels. A volume has no elements; it lists the surfaces that bound it."""
+    """Write the triangles as MSH 4.1. Physical surfaces are parts and pairs of labels, physical
+    volumes are labels. Volumes have no elements but refer to their boundary surfaces."""
     mesh = _Boundaries(surface)
     regions, points, count = mesh.regions, mesh.points, len(mesh.groups)
-    solids = int((regions.label >= 0).sum())  # which come first
-    filled = np.unique(mesh.number[1:solids + 1]).tolist()
+    filled_regions = int((regions.label >= 0).sum())
+    filled = np.unique(mesh.number[1:filled_regions + 1]).tolist()
     head = [f"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Comments\n{remark}\n$EndComments\n"
             f"$PhysicalNames\n{len(mesh.marks) + len(filled)}\n"]
     head += [f'2 {mark} "{mesh.name(kind)}"\n' for kind, mark in mesh.marks.items()]
     head += [f'3 {number} "{mesh.names.labels[number]}"\n' for number in filled]
-    head.append(f"$EndPhysicalNames\n$Entities\n0 0 {count} {solids}\n")
+    head.append(f"$EndPhysicalNames\n$Entities\n0 0 {count} {filled_regions}\n")
     members = [regions.triangles[mesh.group == i] for i in range(count)]
     low, high = (np.array([end(points[m.ravel()].astype(float), axis=0) for m in members])
                  for end in (np.min, np.max))
@@ -165,13 +155,13 @@ def write_msh(surface: Any, path: str, remark: str = "") -> None:
 
     for i in range(count):
         head.append(f"{i + 1} {box([i])} 1 {mesh.marks[mesh.kinds[i]]} 0\n")
-    for region in range(1, solids + 1):
-        # A minus: normals point into the volume.
+    for region in range(1, filled_regions + 1):
+        # A minus sign marks surfaces whose normals point into the volume.
         bounds = [(i, "" if mesh.groups[i, 0] == region else "-") for i in range(count)
                   if region in mesh.groups[i, :2]]
         head.append(f"{region} {box([i for i, _ in bounds])} 1 {mesh.number[region]} {len(bounds)}"
                     + "".join(f" {sign}{i + 1}" for i, sign in bounds) + "\n")
-    # A point belongs to the first surface that has it.
+    # A point belongs to the first surface that uses it.
     owner = np.full(len(points), count)
     np.minimum.at(owner, regions.triangles, mesh.group[:, None])
     order = np.argsort(owner, kind="stable")[:(owner < count).sum()]
@@ -193,8 +183,8 @@ def write_msh(surface: Any, path: str, remark: str = "") -> None:
 
 
 def write_tetgen(surface: Any, path: str, remark: str = "") -> None:
-    """.smesh or .poly of TetGen: facets marked as the physical surfaces of .msh, a point in each
-    region with the label as attribute, and one in each cavity."""
+    """Write a .smesh or .poly file. Facet markers match the physical surfaces of .msh. Each region
+    has a point with the label as attribute, each cavity a hole point."""
     mesh = _Boundaries(surface)
     regions, points = mesh.regions, mesh.points
     poly = os.path.splitext(path)[1].lower() == ".poly"
@@ -205,12 +195,12 @@ def write_tetgen(surface: Any, path: str, remark: str = "") -> None:
     marks = np.array([mesh.marks[kind] for kind in mesh.kinds])[mesh.group]
     facets = (("1 0 %d\n3 %d %d %d", marks, regions.triangles + 1) if poly
               else ("3 %d %d %d %d", regions.triangles + 1, marks))
-    holes, solids = (np.flatnonzero(chosen) + 1 for chosen in (regions.label[1:] < 0,
+    holes, filled = (np.flatnonzero(chosen) + 1 for chosen in (regions.label[1:] < 0,
                                                                regions.label[1:] >= 0))
     write_lines(path, *head, f"{len(points)} 3 0 0\n",
            rows("%d " + digits, np.arange(1, len(points) + 1), points),
            f"{len(marks)} 1\n", rows(*facets), f"{len(holes)}\n",
            rows("%d %r %r %r", np.arange(1, len(holes) + 1), regions.inside[holes]),
-           f"{len(solids)}\n",
-           rows("%d %r %r %r %d", np.arange(1, len(solids) + 1), regions.inside[solids],
-                 mesh.number[solids]))
+                f"{len(filled)}\n",
+                rows("%d %r %r %r %d", np.arange(1, len(filled) + 1), regions.inside[filled],
+                     mesh.number[filled]))

@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Several surfaces in one file, with names and colors: .glb for viewers (Khronos Group: glTF 2.0)
-and .3mf for printers (3MF Consortium: Core Specification 1.3)."""
+"""Files with several named and coloured surfaces: .glb (Khronos Group: glTF 2.0) and .3mf (3MF
+Consortium: Core Specification 1.3)."""
 
 from __future__ import annotations
 
@@ -15,29 +15,29 @@ from typing import Any
 import numpy as np
 
 from ..errors import Failure
-from .regions import SurfaceLabel, cell_array, surface_labels, triangles_of
-from .surfaces import Show, bytes_of, escaped, lines, numbers, packed, points_of, silent
+from .regions import SurfaceLabel, cell_array, points_of, surface_labels, triangles_of
+from .surfaces import Show, bytes_of, escaped, lines, numbers, packed, silent
 
-Objects = Sequence[tuple[str, Any]]  # names and surfaces, none of which is empty
+Objects = Sequence[tuple[str, Any]]  # names and non-empty surfaces
 
-FLOAT, UNSIGNED, VERTICES, CORNERS = 5126, 5125, 34962, 34963  # numbers of OpenGL
-GRAY, LIGHT_GRAY = (0.8, 0.8, 0.8), (0.9, 0.9, 0.9)  # of surfaces without labels
+FLOAT, UNSIGNED, VERTICES, CORNERS = 5126, 5125, 34962, 34963  # OpenGL constants
+GRAY, LIGHT_GRAY = (0.8, 0.8, 0.8), (0.9, 0.9, 0.9)  # colours of surfaces without labels
 
 
 # ---- .glb --------------------------------------------------------------------------------------
 
 def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
-    """A scene of glTF: a node and a mesh for each surface, with normals and a material for each
-    label. VTK's writers of glTF write no names, or need a window.
+    """Yield a glTF scene: a node and a mesh per surface, a material per label, normals.
 
-    Vertices are relative to the center of the scene, in single precision, so that shared vertices
-    stay equal. The root node moves them back, and turns z upwards, which is y in glTF.
+    VTK's glTF writers omit names or require a window. Vertices are relative to the centre of the
+    scene, in single precision, so that shared vertices stay equal. The root node translates them
+    back and rotates z to y, which is up in glTF.
     """
     from .. import __version__
     bounds = np.reshape([surface.GetBounds() for _, surface in objects], (-1, 3, 2))
     center = (bounds[:, :, 0].min(axis=0) + bounds[:, :, 1].max(axis=0)) / 2
     x, y, z = center.tolist()
-    half = float(np.sqrt(0.5))  # of a quarter turn about x
+    half = float(np.sqrt(0.5))  # quaternion of a rotation by -90 degrees about x
     scene: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": f"volumic {__version__}"}, "scene": 0,
         "scenes": [{"nodes": [0]}],
@@ -53,8 +53,8 @@ def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
     text += b" " * (-len(text) % 4)
     size = scene["buffers"][0]["byteLength"]
     if 28 + len(text) + size >= 1 << 32:
-        raise Failure("cannot be written (.glb holds no more than 4 GiB; write fewer surfaces, "
-                      "coarser ones, or .vtp)")
+        raise Failure("cannot be written (.glb is limited to 4 GiB; write fewer or coarser "
+                      "surfaces, or .vtp)")
     yield struct.pack("<4sIII4s", b"glTF", 2, 28 + len(text) + size, len(text), b"JSON") + text
     yield struct.pack("<I4s", size, b"BIN\0")
     yield from (array.tobytes() for array in arrays)
@@ -62,8 +62,8 @@ def glb(objects: Objects, show: Show = silent) -> Iterator[bytes]:
 
 def _add_surface(scene: dict[str, Any], arrays: list[np.ndarray], name: str, surface: Any,
                  center: np.ndarray) -> None:
-    """Add a node, a mesh, its materials, and the arrays that they refer to."""
-    from ..geometry import fact
+    """Add a node and a mesh, with the materials and arrays that they refer to."""
+    from ..geometry import field_text
 
     def add(array: np.ndarray, target: int, kind: int, **limits: Any) -> int:
         buffer = scene["buffers"][0]
@@ -77,10 +77,11 @@ def _add_surface(scene: dict[str, Any], arrays: list[np.ndarray], name: str, sur
         return len(arrays) - 1
 
     labels = surface_labels(surface)
-    facts = {key: fact(surface, key) for key in ("SPACE", "LengthUnit") if fact(surface, key)}
+    extras = {key: field_text(surface, key) for key in ("SPACE", "LengthUnit")}
+    extras = {key: text for key, text in extras.items() if text}
     scene["nodes"].append({"name": name, "mesh": len(scene["meshes"]), "extras": {
-        "labels": [label.number for label in labels], "stop_reason": fact(surface, "StopReason"),
-        **facts}})
+        "labels": [label.number for label in labels],
+        "stop_reason": field_text(surface, "StopReason"), **extras}})
     points = (points_of(surface) - center).astype("<f4")
     attributes = {"POSITION": add(points, VERTICES, FLOAT, min=points.min(axis=0).tolist(),
                                   max=points.max(axis=0).tolist())}
@@ -96,17 +97,16 @@ def _add_surface(scene: dict[str, Any], arrays: list[np.ndarray], name: str, sur
                       "material": len(scene["materials"])})
         label = known.get(number, SurfaceLabel(0, name, GRAY))
         linear = [part / 12.92 if part <= 0.04045 else ((part + 0.055) / 1.055) ** 2.4
-                  for part in label.color]  # labels have sRGB
+                  for part in label.color]  # from sRGB
         scene["materials"].append({"name": label.name, "pbrMetallicRoughness": {
             "baseColorFactor": [*linear, 1.0], "metallicFactor": 0, "roughnessFactor": 0.6}})
     scene["meshes"].append({"name": name, "primitives": parts})
 
 
 # ---- .3mf --------------------------------------------------------------------------------------
-# Several surfaces are one object, since slicers move and drop objects separately: labels that touch
-# would come apart, and a label with a small lowest layer stops PrusaSlicer. PrusaSlicer ignores
-# 3MF's components. It reads parts of the object from a file of its own within the .3mf. To other
-# programs the triangles of each label have a material of its name.
+# All surfaces form one object, since slicers move objects separately, which would separate adjacent
+# labels. PrusaSlicer ignores 3MF components and reads the parts of an object from its own file in
+# the .3mf. For other programs, the triangles of each label have a material with its name.
 
 XML = '<?xml version="1.0" encoding="UTF-8"?>\n'
 PACKAGE = "http://schemas.openxmlformats.org/package/2006/"
@@ -124,12 +124,12 @@ PART = ('<volume firstid="{0}" lastid="{1}"><metadata type="volume" key="name" v
 
 
 def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
-    """A model for printers, with a material for each label."""
+    """Yield a model for 3D printing, with a material per label."""
     from .. import __version__
-    from ..geometry import fact
-    unit = fact(objects[0][1], "LengthUnit")
+    from ..geometry import field_text
+    unit = field_text(objects[0][1], "LengthUnit")
     if unit not in UNITS:
-        raise Failure(f"3MF has no unit {unit}; --unit mm converts")
+        raise Failure(f"3MF does not support the unit {unit}; use --unit mm")
     labels = [surface_labels(surface) or [SurfaceLabel(0, name, LIGHT_GRAY)]
               for name, surface in objects]
     materials = [label for own in labels for label in own]
@@ -168,7 +168,7 @@ def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
             model.writelines(packed(lambda share: show((1 + share) / 2), *triangles))
             model.write(b'</triangles></mesh></object>\n</resources>\n<build><item objectid="2"/>'
                         b"</build>\n</model>\n")
-        if len(objects) > 1:  # for PrusaSlicer: ranges of triangles
+        if len(objects) > 1:  # triangle ranges for PrusaSlicer
             package.writestr(_entry("Metadata/Slic3r_PE_model.config"), (
                 f'{XML}<config>\n<object id="2"><metadata type="object" key="name" value="{name}"/>'
                 f"\n{parts}</object>\n</config>\n"))
@@ -176,7 +176,7 @@ def three_mf(objects: Objects, show: Show = silent) -> Iterator[bytes]:
 
 
 def _entry(name: str) -> zipfile.ZipInfo:
-    """With zip's first date: runs give equal bytes."""
+    """Return an archive entry with a fixed date, so that files are reproducible."""
     entry = zipfile.ZipInfo(name)
     entry.compress_type, entry.external_attr = zipfile.ZIP_DEFLATED, 0o100644 << 16
     return entry

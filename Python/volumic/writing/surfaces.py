@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Surfaces as .vtp, .vtk, .stl, .ply and .obj, and other data of VTK: .vtm, .vti, .csv.
+"""Writers of surfaces (.vtp, .vtk, .stl, .ply, .obj) and of other VTK data (.vtm, .vti, .csv).
 
-On a full disk VTK's writers damage memory or report nothing. Here they write to memory, and Python
-writes to the disk, where a full disk raises OSError.
+On a full disk, VTK's writers corrupt memory or fail silently. Here they write to memory, and Python
+writes to the disk, which raises OSError.
 """
 
 from __future__ import annotations
@@ -15,28 +15,29 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
 
 from ..errors import Failure
 from ..messages import update
 from .meshers import DistinctNames, cap_names
-from .regions import cell_array, surface_labels, triangles_of
+from .regions import cell_array, points_of, surface_labels, triangles_of
 
 Show = Callable[[float], Any]         # progress, 0 to 1
-Pack = Callable[[np.ndarray], bytes]  # makes bytes of rows
+Pack = Callable[[np.ndarray], bytes]  # from rows
 
-CHUNK = 1 << 17  # points or triangles at once
-SLAB = 1 << 29   # bytes of a volume at once
-# Point arrays that describe the fit; others are values that the user requested.
-OF_FIT = {"Normals", "Residual", "Motionless", "Contact", "EdgeSize", "Junction", "GlobalIds"}
+CHUNK = 1 << 17  # points or triangles per chunk
+SLAB = 1 << 29   # bytes of a volume per piece
+# Point arrays that describe the fit. Others were requested by the user.
+FIT_ARRAYS = {"Normals", "Residual", "Motionless", "Contact", "EdgeSize", "Junction", "GlobalIds"}
 PLY_NAMES = ("x", "y", "z", "nx", "ny", "nz", "red", "green", "blue")  # reserved for properties
 
 
 def silent(_: Any) -> None:
-    """Progress or messages that nobody sees."""
+    """Ignore progress or a message."""
 
 
 def packed(show: Show, *parts: tuple[Pack, np.ndarray]) -> Iterator[bytes]:
-    """Yield the bytes that functions make of rows, one chunk at a time."""
+    """Yield the bytes of rows, one chunk at a time."""
     total, done = sum(len(rows) for _, rows in parts), 0
     for pack, rows in parts:
         for first in range(0, len(rows), CHUNK):
@@ -46,30 +47,24 @@ def packed(show: Show, *parts: tuple[Pack, np.ndarray]) -> Iterator[bytes]:
 
 
 def lines(form: str) -> Pack:
-    """Return a function that makes a line of this format of each row."""
+    """Return a function that formats each row as a line."""
     return lambda rows: (form * len(rows) % tuple(rows.ravel().tolist())).encode()
 
 
-# ---- What a surface has ------------------------------------------------------------------------
+# ---- Data of a surface -------------------------------------------------------------------------
 
 def numbers(array: Any) -> Any:
-    """Return the values of an array of VTK; None if there is none."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
+    """Return the values of a VTK array, or None."""
     return None if array is None else vtk_to_numpy(array)
 
 
-def points_of(surface: Any) -> np.ndarray:
-    """Return the points, n x 3."""
-    return numbers(surface.GetPoints().GetData())
-
-
 def bytes_of(color: Any) -> tuple[int, ...]:
-    """Return a color of parts in 0..1 as bytes."""
+    """Return a colour with components in 0..1 as bytes."""
     return tuple(np.floor(255 * np.clip(color, 0, 1) + 0.5).astype(int).tolist())
 
 
 def _vertex_colors(surface: Any) -> np.ndarray | None:
-    """For each point the color of the label of its first triangle; None without labels."""
+    """Return the colour of the label of the first triangle of each point; None without labels."""
     labels = cell_array(surface, "Label")
     colors = {label.number: bytes_of(label.color) for label in surface_labels(surface)}
     if labels is None or not colors:
@@ -77,63 +72,63 @@ def _vertex_colors(surface: Any) -> np.ndarray | None:
     values, index = np.unique(labels, return_inverse=True)
     palette = np.array([colors.get(value, (0, 0, 0)) for value in values.tolist()], "u1")
     found = np.zeros((surface.GetNumberOfPoints(), 3), "u1")
-    # The last assignment to a point is that of its first triangle.
+    # Reversed, so that the first triangle of a point is assigned last.
     found[triangles_of(surface)[::-1]] = palette[index.ravel()][::-1, None]
     return found
 
 
 def _requested_values(surface: Any) -> dict[str, np.ndarray]:
-    """Point arrays with results that the user requested (--probe, --thin-parts)."""
+    """Return the point arrays requested by the user (--probe, --thin-parts)."""
     data = surface.GetPointData()
     return {data.GetArrayName(i): numbers(data.GetArray(i))
-            for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i) not in OF_FIT}
+            for i in range(data.GetNumberOfArrays()) if data.GetArrayName(i) not in FIT_ARRAYS}
 
 
-def losses(surface: Any, suffix: str) -> Iterator[str]:
-    """Yield what files with this suffix cannot hold: requested values of points, numbers of caps,
-    and coordinates for which single precision is too coarse."""
+def unsupported_data(surface: Any, suffix: str) -> Iterator[str]:
+    """Yield descriptions of data that the format does not support: requested point arrays, numbers
+    of caps, and coordinates that exceed single precision."""
     if suffix not in (".stl", ".ply", ".obj", ".glb", ".3mf"):
         return
     values, caps = _requested_values(surface), cell_array(surface, "Cap")
     if values and suffix != ".ply":
-        yield (f"{suffix} has no place for the values {', '.join(sorted(values))}; .vtp, .vtk and "
-               ".ply have")
+        yield (f"{suffix} does not support the point arrays {', '.join(sorted(values))}; use .vtp, "
+               ".vtk or .ply")
     if caps is not None and caps.any() and suffix != ".stl":
-        yield f"{suffix} has no place for the numbers of caps; .vtp, .vtk and .stl have"
+        yield f"{suffix} does not support numbers of caps; use .vtp, .vtk or .stl"
     count, largest = surface.GetNumberOfPolys(), np.abs(surface.GetBounds()).max()
-    # The edge length of as many triangles on the faces of the box of the surface.
+    # Edge length of this number of triangles on the bounding box.
     edge = 2 * surface.GetLength() / np.sqrt(count or 1)
     step = largest * np.finfo(np.float32).eps
     if count and step > 0.01 * edge:
-        yield (f"coordinates up to {largest:.0f} are rounded there by steps of {step:.4g}, edges "
-               f"are about {edge:.4g} long; .vtp, .vtk and .msh keep them")
+        yield (f"coordinates up to {largest:.0f} are rounded to multiples of {step:.4g}, while "
+               f"edges are about {edge:.4g} long; use .vtp, .vtk or .msh")
 
 
 # ---- Formats of surfaces -----------------------------------------------------------------------
 
 def vtp(surface: Any, _remark: str = "", show: Show = silent) -> Iterator[bytes]:
-    """VTK's XML format, with all arrays."""
+    """Yield VTK's XML format, with all arrays."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
     writer = vtkXMLPolyDataWriter()
-    writer.SetCompressorTypeToLZ4()  # nine times as fast as zlib, at 1.6 times the size
+    writer.SetCompressorTypeToLZ4()  # 9 times as fast as zlib, 1.6 times the size
     yield xml_text(writer, surface, show)
 
 
 def vtk(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
-    """VTK's legacy format, binary, with all arrays."""
+    """Yield VTK's legacy format, binary, with all arrays."""
     from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
     writer = vtkPolyDataWriter()
-    writer.SetHeader(remark.encode()[:255].decode("utf-8", "ignore"))  # the longest line
+    writer.SetHeader(remark.encode()[:255].decode("utf-8", "ignore"))  # maximum length
     writer.SetFileTypeToBinary()
     yield _text(writer, surface, show, "GetOutputStdString")
 
 
 def stl(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
-    """Binary, or, with caps (--ends marked), a text with a solid `wall` and one for each cap."""
+    """Yield binary STL, or with caps (--ends marked) text with a solid `wall` and one per cap."""
     triangles, points, caps = triangles_of(surface), points_of(surface), cell_array(surface, "Cap")
 
     def facets(some: np.ndarray) -> np.ndarray:
-        """Normals, as VTK computes them and 0 for triangles without an area, and corners."""
+        """Return normals as VTK computes them (0 for degenerate triangles) and corners."""
         a, b, c = np.moveaxis(points[some].astype(float), 1, 0)
         normals = np.cross(c - b, a - b)
         length = np.linalg.norm(normals, axis=1, keepdims=True)
@@ -153,11 +148,10 @@ def stl(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
 
 
 def ply(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
-    """Binary, with normals, the color of its label at each vertex, and the values that the user
-    requested."""
+    """Yield binary PLY with normals, label colours and requested values of the vertices."""
     triangles, columns = triangles_of(surface), _ply_columns(surface)
-    words = {"|u1": "uchar", "<f4": "float", "<f8": "double"}
-    properties = "".join(f"property {words[column.dtype.str]} {name}\n"
+    attributes = {"|u1": "uchar", "<f4": "float", "<f8": "double"}
+    properties = "".join(f"property {attributes[column.dtype.str]} {name}\n"
                          for name, column in columns.items())
     yield ("ply\nformat binary_little_endian 1.0\ncomment VTK generated PLY File\ncomment "
            f"{remark}\nobj_info vtkPolyData points and polygons: vtk4.0\nelement vertex "
@@ -169,13 +163,12 @@ def ply(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
 
 
 def ply_faces(triangles: np.ndarray) -> bytes:
-    """Return the number of corners as a byte, and the corners, of each triangle."""
+    """Return the faces as PLY: the number of corners as a byte, then the corners."""
     corners = np.ascontiguousarray(triangles, "<i4").view("u1")
     return np.insert(corners, 0, 3, axis=1).tobytes()
 
 
 def _ply_columns(surface: Any) -> dict[str, np.ndarray]:
-    """The properties of vertices."""
     normals, colors = numbers(surface.GetPointData().GetNormals()), _vertex_colors(surface)
     columns = dict(zip("xyz", points_of(surface).T.astype("<f4")))
     if normals is not None:
@@ -192,7 +185,7 @@ def _ply_columns(surface: Any) -> dict[str, np.ndarray]:
 
 
 def obj(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
-    """A text: a line for each point, for its normal, and for each triangle."""
+    """Yield OBJ text."""
     corners, normals = triangles_of(surface) + 1, numbers(surface.GetPointData().GetNormals())
     parts = [(lines("v %.9g %.9g %.9g\n"), points_of(surface))]
     if normals is None:
@@ -210,8 +203,8 @@ FORMATS = {".vtp": vtp, ".vtk": vtk, ".stl": stl, ".ply": ply, ".obj": obj}
 # ---- VTK's writers -----------------------------------------------------------------------------
 
 def xml_text(writer: Any, data: Any, show: Show = silent) -> bytes:
-    """Return what a writer of VTK's XML formats writes."""
-    # Inline: readers of ParaView 5.11, with an expat of 2024 or later, refuse appended data.
+    """Return the output of a VTK XML writer."""
+    # Inline: ParaView 5.11 with expat of 2024 or later cannot read appended data.
     writer.SetDataModeToBinary()
     return _text(writer, data, show)
 
@@ -223,17 +216,16 @@ def _text(writer: Any, data: Any, show: Show = silent, get: str = "GetOutputStri
     if errors or writer.GetErrorCode():
         raise Failure(f"cannot be written ({errors[0] if errors else 'not enough memory?'})")
     text = getattr(writer, get)()
-    return text if isinstance(text, bytes) else text.encode()  # bytes if it is not UTF-8
+    return text if isinstance(text, bytes) else text.encode()  # bytes if not UTF-8
 
 
 def write_pieces(path: str, pieces: Iterable[bytes]) -> None:
-    """Write a file."""
     with open(path, "wb") as file:
         file.writelines(pieces)
 
 
 def vti(image: Any, show: Show = silent) -> Iterator[bytes]:
-    """A volume with all its arrays and field data; a large one in slabs, each a piece."""
+    """Yield a volume with all arrays and field data; a large one in slabs, one piece each."""
     from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
     *extent, z0, z1 = image.GetExtent()
     depth = max(z1 - z0, 1)
@@ -253,27 +245,26 @@ def vti(image: Any, show: Show = silent) -> Iterator[bytes]:
 
 
 def write_vtm(blocks: Any, path: str, show: Show = silent) -> None:
-    """Write blocks that are surfaces, each to a file in a folder beside, and the .vtm that names
-    them."""
+    """Write surfaces in blocks to files in a folder, and the .vtm file that refers to them."""
     parent, stem = os.path.split(os.path.splitext(path)[0])
     os.mkdir(os.path.join(parent, stem))
     text = ('<?xml version="1.0"?>\n<VTKFile type="vtkMultiBlockDataSet" version="1.0">\n'
             "  <vtkMultiBlockDataSet>\n")
     for i in range(blocks.GetNumberOfBlocks()):
         show(i / blocks.GetNumberOfBlocks())
-        facts = {"index": str(i), "name": blocks.HasMetaData(i) and blocks.GetMetaData(i).Get(
+        fields = {"index": str(i), "name": blocks.HasMetaData(i) and blocks.GetMetaData(i).Get(
             blocks.NAME())}
         if blocks.GetBlock(i) is not None:
-            facts["file"] = f"{stem}/{stem}_{i}.vtp"
-            write_pieces(os.path.join(parent, facts["file"]), vtp(blocks.GetBlock(i)))
-        words = (f' {key}="{escaped(value)}"' for key, value in facts.items() if value)
-        text += f"    <DataSet{''.join(words)}/>\n"
+            fields["file"] = f"{stem}/{stem}_{i}.vtp"
+            write_pieces(os.path.join(parent, fields["file"]), vtp(blocks.GetBlock(i)))
+        attributes = (f' {key}="{escaped(value)}"' for key, value in fields.items() if value)
+        text += f"    <DataSet{''.join(attributes)}/>\n"
     text += "  </vtkMultiBlockDataSet>\n</VTKFile>\n"
     write_pieces(path, [text.encode("utf-8", "surrogateescape")])
 
 
 def csv(table: Any) -> Iterator[bytes]:
-    """A table as text, with a line of column names."""
+    """Yield a table as text with column names."""
     from vtkmodules.vtkIOCore import vtkDelimitedTextWriter
     writer = vtkDelimitedTextWriter()
     writer.SetFieldDelimiter(",")
@@ -281,5 +272,5 @@ def csv(table: Any) -> Iterator[bytes]:
 
 
 def escaped(text: str) -> str:
-    """Return a text as the value of an attribute in XML."""
+    """Return a text escaped as an XML attribute."""
     return html.escape(re.sub(r"[\x00-\x1f]", " ", text), quote=False).replace('"', "&quot;")

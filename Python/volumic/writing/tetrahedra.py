@@ -1,7 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tetrahedra that fill a surface, or the interfaces of labels, by TetGen or gmsh. These run as
-programs, since their licences differ from ours."""
+"""Tetrahedral meshes by TetGen or gmsh, which are run as programs because of their licences."""
 
 from __future__ import annotations
 
@@ -16,19 +15,20 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
 
 from ..errors import Failure
 from .meshers import write_msh, write_tetgen
-from .regions import cell_array, labels_of_sides, solid_labels, triangles_of
-from .solids import TETRAHEDRA
+from .regions import cell_array, labels_of_sides, points_of, region_labels, triangles_of
+from .tetrahedral_files import TETRAHEDRAL_SUFFIXES
 
 MESHERS = ("tetgen", "gmsh")
-MOST_TETRAHEDRA = 2e8
-LEAST_ANGLE = 5.0  # degrees; smaller dihedral angles are reported
-CHUNK = 1 << 18    # tetrahedra at once
+MAXIMUM_TETRAHEDRA = 2e8
+MINIMUM_ANGLE = 5.0  # degrees; a warning is given for smaller dihedral angles
+CHUNK = 1 << 18      # tetrahedra per chunk
 
-# gmsh regards volumes of a file as meshed, with or without elements. Each one is replaced by a
-# volume of gmsh's own with the same boundary and physical group.
+# gmsh does not mesh volumes of a file. Each one is replaced by a new volume with the same boundary
+# and physical group.
 OWN_VOLUMES = """p() = Physical Volume{:};
 For k In {0 : #p() - 1}
   v() = Physical Volume{p(k)};
@@ -44,48 +44,45 @@ EndFor
 
 
 def needs_mesher(name: str, mesher: str = "") -> bool:
-    """Whether a file of this name holds tetrahedra; .msh does where a mesher is chosen."""
+    """Return whether a file is a tetrahedral mesh; .msh is one if a mesher is selected."""
     suffix = os.path.splitext(name)[1].lower()
-    return suffix in TETRAHEDRA or (suffix == ".msh" and bool(mesher))
+    return suffix in TETRAHEDRAL_SUFFIXES or (suffix == ".msh" and bool(mesher))
 
 
 def find_mesher(mesher: str = "") -> str:
-    """The program that will run. Throw Failure that says what to install if there is none."""
+    """Return the mesher to run. Raise Failure if it is not installed."""
     for program in (mesher,) if mesher else MESHERS:
         if shutil.which(program):
             return program
     if mesher:
         raise Failure(f"{mesher} is not installed (Debian: apt install {mesher})")
-    raise Failure("tetrahedra are made by TetGen or gmsh, none of which is installed (Debian: apt "
+    raise Failure("tetrahedral meshes require TetGen or gmsh; install one of them (Debian: apt "
                   "install tetgen)")
 
 
 @dataclasses.dataclass
-class Solid:
-    """Tetrahedra, each within one label. The first points are those of the surface."""
-    grid: Any                # vtkUnstructuredGrid; cell array Label, field data of the surface
+class TetrahedralMesh:
+    """A mesh whose tetrahedra have one label each. Points of the surface come first."""
+    grid: Any                # vtkUnstructuredGrid with cell array Label, field data of the surface
     points: np.ndarray       # n x 3
     cells: np.ndarray        # m x 4, of positive volume
-    labels: np.ndarray       # of the tetrahedra
-    names: dict[int, str]    # of the labels
+    labels: np.ndarray       # m
+    names: dict[int, str]    # by label
     mesher: str
-    marked: np.ndarray       # triangles in sides of a box and in caps, k x 3
+    marked: np.ndarray       # triangles in box faces and caps, k x 3
     marks: np.ndarray        # their BoxFace and Cap, k x 2
-    least_angle: float = 0.0    # between two faces of a tetrahedron, degrees
-    percent_angle: float = 0.0  # 1 % of the tetrahedra have a smaller one
+    least_angle: float = 0.0    # minimum dihedral angle, degrees
+    percent_angle: float = 0.0  # first percentile of the minimum dihedral angle
     regions: dict[int, tuple[int, float]] = dataclasses.field(default_factory=dict)
     point_values: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
     cell_values: dict[str, np.ndarray] = dataclasses.field(default_factory=dict)
 
 
-class SolidMaker:
-    """Fills surfaces with tetrahedra and keeps the last result, for the next file of the same
-    surface.
-
-    maximum_volume limits tetrahedra (0: no limit). The program ends when interrupted() becomes
-    true or time.monotonic() exceeds the deadline. probe(points) gives values, {name: array}, which
-    the solid gets at its points and cells.
-    """
+class TetrahedralMesher:
+    """Fills surfaces with tetrahedra. Keeps the last mesh for further files of the same surface.
+    `maximum_volume` is in cubic world units (0: no limit). The program is stopped if interrupted()
+    is true or time.monotonic() exceeds `deadline`. probe(points) returns arrays by name, which are
+    added to points and cells."""
 
     def __init__(self, mesher: str = "", maximum_volume: float = 0.0,
                  interrupted: Callable[[], bool] | None = None, deadline: float | None = None,
@@ -93,107 +90,102 @@ class SolidMaker:
         self.mesher, self.maximum_volume, self.deadline = mesher, maximum_volume, deadline
         self.interrupted = interrupted or (lambda: False)
         self.probe = probe
-        self.last: Solid | None = None
+        self.last: TetrahedralMesh | None = None
         self._surface: Any = None
 
-    def make(self, surface: Any, beside: str, progress: Callable[..., None] | None = None,
-             tell: Callable[[str], None] | None = None) -> Solid:
-        """Fill a surface. While the program runs it has a folder beside the file `beside`.
-
-        Throw Failure without the name of a file: what the program says if it fails, or that it was
-        interrupted.
-        """
+    def make(self, surface: Any, path: str, progress: Callable[..., None] | None = None,
+             warn: Callable[[str], None] | None = None) -> TetrahedralMesh:
+        """Return the mesh of a surface. Temporary files are written next to the file `path`. Raise
+        Failure, without a file name, if the program fails or is stopped."""
         if self.last is not None and self._surface is surface:
             return self.last
         program = find_mesher(self.mesher)
         self._check_size(surface)
         progress = progress or (lambda *_: None)
         with tempfile.TemporaryDirectory(prefix=".volumic-",
-                                         dir=os.path.dirname(os.path.abspath(beside))) as folder:
-            name = os.path.join(folder, "solid.msh" if program == "gmsh" else "solid.smesh")
+                                         dir=os.path.dirname(os.path.abspath(path))) as folder:
+            name = os.path.join(folder, "surface.msh" if program == "gmsh" else "surface.smesh")
             (write_msh if program == "gmsh" else write_tetgen)(surface, name)
             progress(0.1)
-            self._run(self._words(program, folder), folder)
+            self._run(self._command_line(program, folder), folder)
             progress(0.8)
-            made = os.path.join(folder, "solid.mesh" if program == "gmsh" else "solid.1.mesh")
-            solid = _solid_of(made, surface, program)
-        _measure(solid)
-        self._add_values(solid)
-        if tell and solid.least_angle < LEAST_ANGLE:
-            tell(f"the least dihedral angle of the tetrahedra is {solid.least_angle:.2g} degrees, "
-                 f"less than the {LEAST_ANGLE:g} that solvers need: the surface has thin or sharp "
-                 "parts; try another --edge-length, --smoothing or --region")
-        self.last, self._surface = solid, surface
-        return solid
+            made = os.path.join(folder, "surface.mesh" if program == "gmsh" else "surface.1.mesh")
+            mesh = _read_mesh(made, surface, program)
+        _measure(mesh)
+        self._add_values(mesh)
+        if warn and mesh.least_angle < MINIMUM_ANGLE:
+            warn(f"the minimum dihedral angle is {mesh.least_angle:.2g} degrees, below the "
+                 f"{MINIMUM_ANGLE:g} degrees that solvers require, due to thin or sharp parts; "
+                 "change --edge-length, --smoothing or --region")
+        self.last, self._surface = mesh, surface
+        return mesh
 
     def _check_size(self, surface: Any) -> None:
-        """Throw Failure if the limit of the volume means tetrahedra without number."""
-        from vtkmodules.util.numpy_support import vtk_to_numpy
+        """Raise Failure if the maximum volume implies too many tetrahedra."""
         if self.maximum_volume <= 0:
             return
-        points, triangles = vtk_to_numpy(surface.GetPoints().GetData()), triangles_of(surface)
+        points, triangles = points_of(surface), triangles_of(surface)
         a, b, c = np.moveaxis(points[triangles] - points.mean(axis=0), 1, 0)
         filled = (labels_of_sides(surface, len(triangles)) >= 0).reshape(-1, 2)
-        ways = filled[:, 0].astype(int) - filled[:, 1]
-        volume = float((ways * (a * np.cross(b, c)).sum(1)).sum() / 6)
-        if volume > MOST_TETRAHEDRA * self.maximum_volume:
-            raise Failure(f"--maximum-volume {self.maximum_volume:g} means more than "
-                          f"{MOST_TETRAHEDRA:.0e} tetrahedra; choose at least "
-                          f"{volume / MOST_TETRAHEDRA:.1g}")
+        signs = filled[:, 0].astype(int) - filled[:, 1]
+        volume = float((signs * (a * np.cross(b, c)).sum(1)).sum() / 6)
+        if volume > MAXIMUM_TETRAHEDRA * self.maximum_volume:
+            raise Failure(f"--maximum-volume {self.maximum_volume:g} requires more than "
+                          f"{MAXIMUM_TETRAHEDRA:.0e} tetrahedra; set it to at least "
+                          f"{volume / MAXIMUM_TETRAHEDRA:.1g}")
 
-    def _words(self, program: str, folder: str) -> list[str]:
+    def _command_line(self, program: str, folder: str) -> list[str]:
         limit = self.maximum_volume
         if program == "tetgen":
-            # p: fill the triangles, Y: keep these, A: with labels, q: dihedral angles of 8 degrees
-            # where the triangles allow that.
-            return ["tetgen", "-pYAq/8gNEF" + (f"a{limit!r}" if limit > 0 else ""), "solid.smesh"]
+            # p: mesh a surface, Y: preserve it, A: region attributes, q/8: dihedral angles of at
+            # least 8 degrees where the surface allows it.
+            return ["tetgen", "-pYAq/8gNEF" + (f"a{limit!r}" if limit > 0 else ""), "surface.smesh"]
         with open(os.path.join(folder, "volumes.geo"), "w", encoding="ascii") as file:
             file.write(OWN_VOLUMES)
-        # The edge length of a regular tetrahedron of this volume.
+        # Edge length of a regular tetrahedron of this volume.
         size = ["-clmax", repr(float(np.cbrt(6 * np.sqrt(2) * limit)))] if limit > 0 else []
-        return ["gmsh", "-3", "solid.msh", "volumes.geo", "-o", "solid.mesh", "-format", "mesh",
+        return ["gmsh", "-3", "surface.msh", "volumes.geo", "-o", "surface.mesh", "-format", "mesh",
                 "-setnumber", "Mesh.SaveElementTagType", "2", "-v", "2", *size]
 
-    def _run(self, words: list[str], folder: str) -> None:
-        """Run a program until it ends, is interrupted or the time is over."""
+    def _run(self, command: list[str], folder: str) -> None:
+        """Run a program until it ends, is interrupted or reaches the deadline."""
         log = os.path.join(folder, "log")
-        # The result of an interrupted run is filled, too, and can then not be interrupted again.
-        may_stop, stopped = not self.interrupted(), ""
+        # The surface of an interrupted run is meshed, too.
+        can_interrupt, stopped = not self.interrupted(), ""
         try:
             with open(log, "wb") as output:
-                process = subprocess.Popen(words, cwd=folder, stdin=subprocess.DEVNULL,
+                process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL,
                                            stdout=output, stderr=subprocess.STDOUT)
         except OSError as error:
-            raise Failure(f"{words[0]} cannot be run ({error.strerror})") from None
+            raise Failure(f"{command[0]} cannot be run ({error.strerror})") from None
         try:
             while process.poll() is None and not stopped:
-                if may_stop and self.interrupted():
+                if can_interrupt and self.interrupted():
                     stopped = "interrupted"
                 elif self.deadline is not None and time.monotonic() > self.deadline:
-                    stopped = "the time limit came"
+                    stopped = "time limit reached"
                 else:
                     time.sleep(0.01)
         finally:
             if process.poll() is None:
                 process.kill()
             code = process.wait()
-        if not stopped and code != 0 and may_stop and self.interrupted():
-            stopped = "interrupted"  # the signal reached the program, too
+        if not stopped and code != 0 and can_interrupt and self.interrupted():
+            stopped = "interrupted"  # the program received the signal, too
         if stopped:
-            raise Failure(f"{stopped} while {words[0]} made tetrahedra; not written")
+            raise Failure(f"{stopped} while {command[0]} was running; the file was not written")
         if code != 0:
             reason = f"exit code {code}" if code > 0 else f"signal {-code}"
-            raise Failure(f"{words[0]} fails ({reason}): {_end_of(log)}")
+            raise Failure(f"{command[0]} failed ({reason}): {_end_of(log)}")
 
-    def _add_values(self, solid: Solid) -> None:
-        """Give the solid the values of the probe: at its points, and the means within its cells
-        (centroid and four points half-way to the corners). Labels are those at the centroids."""
+    def _add_values(self, mesh: TetrahedralMesh) -> None:
+        """Add values of the probe to points, and to cells their mean at the centroid and four
+        points between it and the corners; for labels the value at the centroid."""
         if self.probe is None:
             return
-        from vtkmodules.util.numpy_support import numpy_to_vtk
-        corners = solid.points[solid.cells]
+        corners = mesh.points[mesh.cells]
         center = corners.mean(axis=1)
-        solid.point_values = self.probe(solid.points)
+        mesh.point_values = self.probe(mesh.points)
         samples = [self.probe(center)]
         if any(values.dtype.kind == "f" for values in samples[0].values()):
             samples += [self.probe((center + corners[:, i]) / 2) for i in range(4)]
@@ -203,40 +195,39 @@ class SolidMaker:
                 known = ~np.isnan(parts)
                 with np.errstate(invalid="ignore"):
                     values = np.where(known, parts, 0).sum(0) / known.sum(0)
-            solid.cell_values[name] = values
-        for data, found in ((solid.grid.GetPointData(), solid.point_values),
-                            (solid.grid.GetCellData(), solid.cell_values)):
+            mesh.cell_values[name] = values
+        for data, found in ((mesh.grid.GetPointData(), mesh.point_values),
+                            (mesh.grid.GetCellData(), mesh.cell_values)):
             for name, values in found.items():
                 array = numpy_to_vtk(np.ascontiguousarray(values), deep=True)
                 array.SetName(name)
                 data.AddArray(array)
 
 
-# ---- What a program has made -------------------------------------------------------------------
+# ---- Results of meshers ------------------------------------------------------------------------
 
 def _end_of(log: str) -> str:
-    """The last lines that a program printed, without the dashes of gmsh."""
+    """Return the last lines of a log, without separators of gmsh."""
     with open(log, encoding="utf-8", errors="replace") as file:
         lines = [line.strip() for line in file if line.strip() and "-----" not in line]
     return "; ".join(lines[-3:])[:400]
 
 
 def _numbers(text: str, keyword: str, columns: int) -> np.ndarray:
-    """The rows of a section of a Medit file."""
+    """Return the rows of a section of a Medit file."""
     found = re.search(rf"^\s*{keyword}\s+(\d+)", text, re.MULTILINE)
     if found is None:
         return np.zeros((0, columns))
     end = re.compile(r"^\s*[A-Za-z#]", re.MULTILINE).search(text, found.end())
     numbers = np.fromstring(text[found.end():end.start() if end else None], sep=" ")
     if len(numbers) != columns * int(found[1]):
-        raise Failure(f"the mesher's file is damaged: {keyword} are missing")
+        raise Failure(f"the output of the mesher is damaged: {keyword} are missing")
     return numbers.reshape(-1, columns)
 
 
-def _solid_of(path: str, surface: Any, mesher: str) -> Solid:
-    """Read a Medit file. The surface's points come first, in their order and with all digits."""
+def _read_mesh(path: str, surface: Any, mesher: str) -> TetrahedralMesh:
+    """Read a Medit file. Points of the surface come first, with their exact coordinates."""
     from scipy.spatial import cKDTree
-    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructuredGrid
     text = ""
@@ -245,21 +236,21 @@ def _solid_of(path: str, surface: Any, mesher: str) -> Solid:
             text = file.read()
     nodes, rows = _numbers(text, "Vertices", 4)[:, :3], _numbers(text, "Tetrahedra", 5).astype(int)
     if len(rows) == 0:
-        raise Failure("the mesher has made no tetrahedra")
-    own = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+        raise Failure("the mesher created no tetrahedra")
+    own = points_of(surface).astype(float)
     far, near = cKDTree(own).query(nodes)
-    added = far > 1e-12 * np.abs(own).max()  # files have 14 digits at least
+    added = far > 1e-12 * np.abs(own).max()  # files have at least 14 digits
     near[added] = len(own) + np.arange(added.sum())
     if rows[:, :4].min() < 1 or rows[:, :4].max() > len(nodes):
-        raise Failure("the mesher's file is damaged: it lacks nodes")
+        raise Failure("the output of the mesher is damaged: nodes are missing")
     points, cells = np.concatenate([own, nodes[added]]), near[rows[:, :4] - 1].astype(np.int64)
     a, b, c, d = np.moveaxis(points[cells], 1, 0)
     inverted = ((b - a) * np.cross(c - a, d - a)).sum(1) < 0
     cells[inverted, 2:] = cells[inverted, :1:-1]
-    grid, places, array = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
-    places.SetData(numpy_to_vtk(points, deep=True))
+    grid, vtk_points, array = vtkUnstructuredGrid(), vtkPoints(), vtkCellArray()
+    vtk_points.SetData(numpy_to_vtk(points, deep=True))
     array.SetData(4, numpy_to_vtkIdTypeArray(cells.ravel(), deep=True))
-    grid.SetPoints(places)
+    grid.SetPoints(vtk_points)
     grid.SetCells(VTK_TETRA, array)
     labels = numpy_to_vtk(rows[:, 4].astype(np.int32), deep=True)
     labels.SetName("Label")
@@ -269,33 +260,33 @@ def _solid_of(path: str, surface: Any, mesher: str) -> Solid:
     marks = np.stack([np.zeros(surface.GetNumberOfPolys(), int) if mark is None else mark
                       for mark in marks], axis=1).astype(int)
     marked = marks.any(axis=1)
-    solid = Solid(grid, points, cells, rows[:, 4], {}, mesher,
-                  triangles_of(surface)[marked], marks[marked])
-    for label in sorted(solid_labels(surface)):
-        solid.names[label.number] = label.name
-        if not (solid.labels == label.number).any():
-            raise Failure(f"{mesher} has left out {label.name}")
-    return solid
+    mesh = TetrahedralMesh(grid, points, cells, rows[:, 4], {}, mesher,
+                           triangles_of(surface)[marked], marks[marked])
+    for label in sorted(region_labels(surface)):
+        mesh.names[label.number] = label.name
+        if not (mesh.labels == label.number).any():
+            raise Failure(f"{mesher} created no tetrahedra for {label.name}")
+    return mesh
 
 
-def _measure(solid: Solid) -> None:
-    """Set the angles, and the number and volume of the tetrahedra of each label."""
+def _measure(mesh: TetrahedralMesh) -> None:
+    """Set the angles, and number and volume of the tetrahedra of each label."""
     angles, six = [], []
-    for first in range(0, len(solid.cells), CHUNK):
-        p = solid.points[solid.cells[first:first + CHUNK]]
-        most = np.full(len(p), -1.0)  # cosine
+    for first in range(0, len(mesh.cells), CHUNK):
+        p = mesh.points[mesh.cells[first:first + CHUNK]]
+        maximum = np.full(len(p), -1.0)  # cosine
         for i, j, a, b in ((0, 1, 2, 3), (0, 2, 1, 3), (0, 3, 1, 2), (1, 2, 0, 3), (1, 3, 0, 2),
                            (2, 3, 0, 1)):
-            # The faces that meet at edge a b lead to i and j.
+            # The faces at edge a b have the other corners i and j.
             edge = p[:, b] - p[:, a]
             m, n = (np.cross(edge, p[:, end] - p[:, a]) for end in (i, j))
             cosine = (m * n).sum(1) / np.sqrt((m * m).sum(1) * (n * n).sum(1))
-            most = np.fmax(most, cosine)
-        angles.append(np.degrees(np.arccos(np.clip(most, -1, 1))))
+            maximum = np.fmax(maximum, cosine)
+        angles.append(np.degrees(np.arccos(np.clip(maximum, -1, 1))))
         six.append(((p[:, 1] - p[:, 0]) * np.cross(p[:, 2] - p[:, 0], p[:, 3] - p[:, 0])).sum(1))
     all_angles, volumes = np.sort(np.concatenate(angles)), np.concatenate(six) / 6
-    solid.least_angle = float(all_angles[0])
-    solid.percent_angle = float(all_angles[len(all_angles) // 100])
-    for number in np.unique(solid.labels).tolist():
-        own = solid.labels == number
-        solid.regions[number] = int(own.sum()), float(volumes[own].sum())
+    mesh.least_angle = float(all_angles[0])
+    mesh.percent_angle = float(all_angles[len(all_angles) // 100])
+    for number in np.unique(mesh.labels).tolist():
+        own = mesh.labels == number
+        mesh.regions[number] = int(own.sum()), float(volumes[own].sum())

@@ -1,0 +1,188 @@
+// SPDX-FileCopyrightText: Copyright (c) Volumic contributors
+// SPDX-License-Identifier: BSD-3-Clause
+#include "Core/Evolution/MissedParts.h"
+#include "Core/Mesh/SelfIntersections.h"
+#include "Core/Mesh/SurfaceFeatures.h"
+#include "EvolutionTestTools.h"
+
+#include <random>
+
+using namespace volumic;
+
+namespace
+{
+constexpr float Delta = 0.85f;
+/** A ball that the surface knows, holding a bubble that it does not know, and a lost ball. */
+TestVolume Scene()
+{
+  return MakeVolume(48,
+    [](double x, double y, double z)
+    {
+      const double known = Distance(x, y, z, 18, 24, 24) - 13.;
+      const double bubble = 6. - Distance(x, y, z, 17, 24, 24);
+      const double missed = Distance(x, y, z, 40, 24, 24) - 4.;
+      return Soft(std::min(std::max(known, bubble), missed));
+    });
+}
+
+void Fill(SurfaceState& state)
+{
+  state.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
+  state.Sizing = SizingField(Delta);
+  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+}
+
+/** The known ball's surface in an image. */
+struct KnownBall
+{
+  TestVolume Volume;
+  Field Image;
+  SurfaceState State;
+
+  explicit KnownBall(TestVolume volume = Scene())
+    : Volume(std::move(volume)), Image(this->Volume.Image, IsoHalf(), Threads)
+  {
+    Fill(this->State);
+  }
+
+  MissedBoundary::Missing MissedBy(const MissedBoundary& boundary) const
+  {
+    const double area = ComputeFeatures(this->State.Mesh.ToIndexed()).Area;
+    return boundary.MissedBy(this->State, area, this->Image, Threads);
+  }
+
+  RecoverySurfaces Find(PartKind kind, int minimumSize) const
+  {
+    return FindMissedParts(
+      this->State, this->Image, kind, minimumSize, RecoveryShape::Even, Threads);
+  }
+};
+
+/** Far enough from the surface, all of them count. */
+int VoxelsOfTheLostBall(const Field& field)
+{
+  int count = 0;
+  ForBox(
+    { 34, 0, 0 }, { 48, 48, 48 }, [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
+  return count;
+}
+
+RecoverySurfaces FindAll(
+  const SurfaceState& state, const Field& field, PartKind kind, RecoveryShape shape)
+{
+  return FindMissedParts(state, field, kind, 20, shape, Threads);
+}
+
+double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
+{
+  double nearest = std::numeric_limits<double>::max();
+  for (const Vector& p : state.Mesh.Position)
+  {
+    for (const Point& q : surface.Points)
+    {
+      nearest = std::min(nearest, Distance(p.X, p.Y, p.Z, q[0], q[1], q[2]));
+    }
+  }
+  return nearest;
+}
+}
+
+TEST(MissedParts, EnclosesObjectOutsideTheSurfaceAndBackgroundInside)
+{
+  const KnownBall known;
+  for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
+  {
+    const bool isObject = kind == PartKind::Object;
+    const RecoverySurfaces cover = known.Find(kind, 20);
+    EXPECT_EQ(cover.Found, 1);
+    EXPECT_EQ(cover.Enclosed, 1);
+    const SurfaceFeatures features = ComputeFeatures(cover.Surface);
+    ASSERT_EQ(features.Components.size(), 1u);
+    EXPECT_EQ(features.Genus, 0);
+    // Around it; that of a cavity is turned inside out.
+    EXPECT_GT(
+      isObject ? features.Volume : -features.Volume, 4. / 3. * 3.14159 * (isObject ? 64. : 216.));
+    const Point& c = features.Components[0].Centroid;
+    EXPECT_LT(Distance(c[0], c[1], c[2], isObject ? 40 : 17, 24, 24), 1.);
+    EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
+  }
+}
+
+TEST(MissedParts, LeavesPartsUnderTheMinimumSize)
+{
+  const KnownBall known;
+  // A ball of radius 4 has 257 voxels.
+  EXPECT_EQ(known.Find(PartKind::Object, 250).Found, 1);
+  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image)).Found, 1);
+  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image) + 1).Found, 0);
+  const RecoverySurfaces none = known.Find(PartKind::Object, 265);
+  EXPECT_EQ(none.Found, 0);
+  EXPECT_EQ(none.Enclosed, 0);
+  EXPECT_TRUE(none.Surface.Triangles.empty());
+}
+
+TEST(MissedParts, WhatLiesAtTheSurfaceIsNotLost)
+{
+  // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
+  for (const double radius : { 11.8, 14.2 })
+  {
+    const KnownBall known(MakeVolume(48,
+      [radius](double x, double y, double z)
+      { return Soft(Distance(x, y, z, 18, 24, 24) - radius); }));
+    EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
+    EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
+  }
+}
+
+TEST(MissedParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
+{
+  std::mt19937 random(3);
+  for (int round = 0; round < 6; ++round)
+  {
+    // Waves of all directions: sheets, tunnels and specks as wide as the lattice's cubes.
+    std::uniform_real_distribution<double> phase(0., 6.28), wave(-2.5, 2.5);
+    std::array<std::array<double, 4>, 12> waves;
+    for (std::array<double, 4>& w : waves)
+    {
+      w = { wave(random), wave(random), wave(random), phase(random) };
+    }
+    const TestVolume volume = MakeVolume(28,
+      [&waves](double x, double y, double z)
+      {
+        double sum = 0.;
+        for (const std::array<double, 4>& w : waves)
+        {
+          sum += std::sin(w[0] * x + w[1] * y + w[2] * z + w[3]);
+        }
+        return Soft(1.5 - sum);
+      });
+    const Field field(volume.Image, IsoHalf(), Threads);
+    SurfaceState state;
+    state.Sizing = SizingField(Delta);
+    state.Reset(Vector(-2, -2, -2), Vector(30, 30, 30));
+    for (const RecoveryShape shape : { RecoveryShape::Safe, RecoveryShape::Even })
+    {
+      const RecoverySurfaces cover = FindAll(state, field, PartKind::Object, shape);
+      EXPECT_GT(cover.Enclosed, 0);
+      EXPECT_EQ(cover.Enclosed, cover.Found);
+      EXPECT_NO_THROW(SurfaceMesh().Append(cover.Surface)); // Closed, a manifold, oriented.
+      EXPECT_EQ(CountSelfIntersections(cover.Surface), 0);
+    }
+  }
+}
+
+TEST(MissedParts, BoundaryIsMissedWhereNoVertexIsNear)
+{
+  KnownBall known;
+  const RecoverySurfaces cover = known.Find(PartKind::Object, 20);
+  const MissedBoundary::Missing before = known.MissedBy(cover.Boundary);
+  EXPECT_EQ(before.Parts, 1);
+  // Spheres of radius 4 and 13.
+  EXPECT_NEAR(before.Share, 16. / (16. + 169.), 0.01);
+
+  known.State.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
+  known.State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+  const MissedBoundary::Missing after = known.MissedBy(cover.Boundary);
+  EXPECT_EQ(after.Parts, 0);
+  EXPECT_EQ(after.Share, 0.);
+}
