@@ -141,13 +141,13 @@ class ScenesTest(LabelsTest):
         said = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
         low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
                                  (2, 0, 1))
-        size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm\n", said)
+        size = re.search(r"size of the print: (\S+) x (\S+) x (\S+) mm\n", said)
         np.testing.assert_allclose([float(n) for n in size.groups()],
                                    high.max(0) - low.min(0), atol=1.5)
         said = self.run_command(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso",
                                 ISO, "--thin-parts").stderr
         walls = vtk_to_numpy(read(self.path("b.vtp")).GetPointData().GetArray("Thickness"))
-        self.assertAlmostEqual(float(re.search("thinnest wall has (.*)$", said, re.M).group(1)),
+        self.assertAlmostEqual(float(re.search("minimum wall thickness (.*)$", said, re.M).group(1)),
                                walls.min(), delta=2e-3 * walls.min())
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
