@@ -19,7 +19,6 @@ namespace
 {
 using DirectedEdge = std::pair<int, int>;
 
-constexpr std::size_t TriangleSpan = 16384;
 constexpr std::size_t VertexSpan = 8192;
 
 /** Triangle corners at each point of a surface. */
@@ -32,7 +31,7 @@ public:
   {
     const auto forCorners = [&](auto&& visit)
     {
-      ForSpans(executor, surface.Triangles.size(), TriangleSpan,
+      ForSpans(executor, surface.Triangles.size(), 2 * VertexSpan,
         [&](std::size_t, std::size_t begin, std::size_t end)
         {
           for (std::size_t t = begin; t < end; ++t)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Surface/StarIntersections.h"
 
-#include "Core/Mesh/TriangleTests.h"
+#include "Core/Surface/FaceShape.h"
 
 #include <algorithm>
 
@@ -12,8 +12,6 @@ namespace
 {
 /** Clearance along the normals, in delta, from which on no other direction is tested. */
 constexpr float SufficientClearance = 0.02f;
-/** Least cosine between two faces at an edge that are certainly not folded onto each other. */
-constexpr float Unfolded = -0.99f;
 /** Margin of a squared search radius: one of two pairs must not leave a test to the other. */
 constexpr float RadiusRounding = 0.999f;
 /** Margin for rounding of a clearance in float instead of double. */
