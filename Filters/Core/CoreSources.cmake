@@ -40,6 +40,7 @@ set(volumic_core_sources
   Mesh/SurfaceFeatures.cxx
   Mesh/SurfaceMeasures.cxx
   Mesh/SurfaceMesh.cxx
+  Mesh/SurfaceMeshAppend.cxx
   Mesh/TriangleDistance.cxx
   Mesh/TriangleTests.cxx
   Mesh/TriangleTree.cxx
@@ -73,6 +74,7 @@ set(volumic_core_sources
   Surface/RemesherMerges.cxx
   Surface/StarImprovement.cxx
   Surface/StarFaces.cxx
+  Surface/StarIntersections.cxx
   Surface/StarScore.cxx
   Surface/StarShape.cxx
   Surface/SurfaceBlocks.cxx
