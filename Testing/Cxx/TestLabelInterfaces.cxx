@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The mesh of all labels that vtkLabelsToSurfaces makes, and what blocks have of it.
+// Output port 1 of vtkLabelsToSurfaces, the mesh of all labels, and its relation to the blocks.
 
 #include "LabelImages.h"
 #include "SameOutputs.h"
@@ -80,7 +80,7 @@ void ExpectPointsOf(vtkPolyData* surface, vtkPolyData* interfaces)
   }
 }
 
-/** What the filter says while it is updated; empty: it has no error. */
+/** Update the filter, and return its messages. */
 std::string ErrorOf(vtkLabelsToSurfaces* filter)
 {
   MessagesOf errors(filter);
@@ -89,7 +89,7 @@ std::string ErrorOf(vtkLabelsToSurfaces* filter)
 }
 }
 
-TEST(LabelInterfaces, AreThereOnceEach)
+TEST(LabelInterfaces, HaveEachTriangleOnce)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -105,7 +105,7 @@ TEST(LabelInterfaces, AreThereOnceEach)
   EXPECT_EQ(interfaces->GetFieldData()->GetAbstractArray("LabelName")->GetNumberOfTuples(), 3);
 }
 
-TEST(LabelInterfaces, AreWhatBlocksAreMadeOf)
+TEST(LabelInterfaces, HaveThePointsOfTheBlocks)
 {
   const auto filter = FilterOf(BlocksImage());
   filter->Update();
@@ -281,7 +281,7 @@ TEST(LabelInterfaces, AreFlatAtTheBorderOfTheImage)
   EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 3"));
 }
 
-TEST(LabelInterfaces, DoNotDependOnTheOldProperty)
+TEST(LabelInterfaces, AreIndependentOfSharedInterfaces)
 {
   const auto filter = FilterOf(BlocksImage());
   EXPECT_TRUE(filter->GetSharedInterfaces());

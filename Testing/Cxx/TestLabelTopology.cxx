@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // The contract of vtkLabelsToSurfaces: the mesh has the topology of the voxels, labels and their
-// parts keep their volumes, and nothing intersects.
+// parts keep their volumes, and there are no intersections.
 
 #include "LabelImages.h"
 #include "SurfaceTestTools.h"
@@ -41,7 +41,7 @@ vtkSmartPointer<vtkImageData> ImageOf(const VoxelScene& scene)
   return image;
 }
 
-/** All interfaces of a filter that makes all labels, with labels for objects. */
+/** Return all interfaces of all labels, with labels as objects. */
 InterfaceMesh MeshOf(vtkLabelsToSurfaces* filter)
 {
   vtkPolyData* interfaces = filter->GetInterfaces();
@@ -154,7 +154,7 @@ std::vector<LabelScene> Inclusions()
   return scenes;
 }
 
-/** Shapes in 2 x 2 x 2 voxels, and boxes of 1 to 32 voxels, each a label alone. */
+/** Shapes in 2 x 2 x 2 voxels, and boxes of 1 to 32 voxels, each with its own label. */
 std::vector<LabelScene> SmallLabels()
 {
   const std::array<int, 4> left = { 0xff, 0x7f, 0xd7, 0xee }; // voxels by bits: x, y, z
@@ -185,7 +185,7 @@ std::vector<LabelScene> SmallLabels()
     { "Thick", SceneOf({ 40, 20, 12 }, { 1., 1., 3. }, thick) } };
 }
 
-/** What is a voxel thick. */
+/** Objects one voxel thick. */
 std::vector<LabelScene> Sheets()
 {
   const auto tilted = [](int i, int j, int k)
@@ -294,6 +294,7 @@ TEST(LabelParts, AreReported)
   vtkAbstractArray* missed = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
   ASSERT_TRUE(missed);
   EXPECT_EQ(vtkStringArray::SafeDownCast(missed)->GetValue(0),
-    "Parts have another volume than their voxels, of Label 1 (2 of 3), Label 2 (2 of 2): too "
-    "small, scattered, or too thin for the triangles.");
+    "The enclosed volume of parts differs from their voxels for Label 1 (2 of 3), Label 2 (2 of "
+    "2). "
+    "They are too small, scattered, or too thin for the triangles.");
 }
