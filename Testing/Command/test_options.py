@@ -141,7 +141,7 @@ class OptionTableTest(CommandTestCase):
                  "--edge-length", "0.01"),
                 ("--tolerance is 1, but --no-snap is given, so the surface", "--tolerance", "1",
                  "--no-snap"),
-                ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
+                ("--thin-parts is given and --edge-length is 1, .* Set --edge-length to 0",
                  "--thin-parts", "--edge-length", "1")):
             self.rejects(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
