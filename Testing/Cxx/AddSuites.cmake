@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# Included by ctest, before it runs: a test for each suite of the GoogleTest program `program` (with an
-# emulator before it where one is needed), with the properties `properties`. A process for each test
-# would take longer than most tests do; where `each` is true, they are long enough.
+# Included by ctest: add a test for each suite of the GoogleTest program `program` (a command with its
+# emulator), for each test if `each` is true, with the properties `properties`.
 
 function (add_suite name filter)
   add_test("${name}" ${program} "--gtest_filter=${filter}")
-  # Skipped is a suite of which each test is.
+  # A suite counts as skipped if all its tests are skipped.
   set_tests_properties("${name}" PROPERTIES
     SKIP_REGULAR_EXPRESSION "PASSED  \\] 0 tests\\.\n(\\[  SKIPPED \\][^[]*)+$"
     ${properties})
@@ -16,7 +15,7 @@ endfunction ()
 execute_process(COMMAND ${program} --gtest_list_tests
   OUTPUT_VARIABLE listing RESULT_VARIABLE status TIMEOUT 300)
 if (NOT status EQUAL 0)
-  # It's not built, or does not start: a test that fails tells so.
+  # The program is missing or fails: add a failing test.
   add_suite("${program}" "*")
   set(listing "")
 endif ()

@@ -8,10 +8,7 @@
 
 namespace volumic
 {
-/**
- * While it lives, the program's global locale writes 1.234,5 for 1234.5. No locale of the system is
- * needed for it.
- */
+/** Set a global locale that formats 1234.5 as 1.234,5 until destruction. */
 class CommaLocale
 {
 public:

@@ -12,14 +12,14 @@
 
 namespace volumic
 {
-/** Voxels with their image; keep it alive as long as the image is used. */
+/** Voxels and their image. The volume must outlive the image. */
 struct TestVolume
 {
   std::vector<float> Values;
   LevelImage Image;
 };
 
-/** A cube of n voxels along each axis, filled with f(x, y, z) at the voxels. */
+/** Return a volume of n x n x n voxels with the values f(x, y, z). */
 inline TestVolume MakeVolume(int n, const std::function<double(double, double, double)>& f)
 {
   TestVolume volume;
@@ -31,7 +31,7 @@ inline TestVolume MakeVolume(int n, const std::function<double(double, double, d
   return volume;
 }
 
-/** 1 inside, 0 outside, with a ramp of two voxels: the iso-value .5 is at distance 0. */
+/** Return 1 inside, 0 outside, with a ramp of two voxels; iso-value .5. */
 inline double Soft(double signedDistance)
 {
   return std::min(1., std::max(0., 0.5 - 0.5 * signedDistance));
@@ -42,14 +42,26 @@ inline double Distance(double x, double y, double z, double a, double b, double 
   return std::sqrt((x - a) * (x - a) + (y - b) * (y - b) + (z - c) * (z - c));
 }
 
-inline SurfaceMesh MakeSphere(const Point& centre, double radius, double meanEdge)
+inline SurfaceMesh MeshOf(const IndexedSurface& surface)
 {
   SurfaceMesh mesh;
-  mesh.Append(DividedIcosahedron(centre, radius, meanEdge));
+  mesh.Append(surface);
   return mesh;
 }
 
-/** Makes one surface of two. */
+/** Expect a valid mesh without self-intersections. */
+inline void ExpectValidMesh(const IndexedSurface& surface)
+{
+  EXPECT_EQ(DescribeBrokenInvariant(MeshOf(surface)), "");
+  EXPECT_EQ(CountSelfIntersections(surface), 0);
+}
+
+inline SurfaceMesh MakeSphere(const Point& centre, double radius, double meanEdge)
+{
+  return MeshOf(DividedIcosahedron(centre, radius, meanEdge));
+}
+
+/** Append a surface to another one. */
 inline void AddSurface(IndexedSurface& to, const IndexedSurface& more)
 {
   const int first = static_cast<int>(to.Points.size());
@@ -69,7 +81,7 @@ inline IndexedSurface InsideOut(IndexedSurface surface)
   return surface;
 }
 
-/** Corners so far from the centre along each axis: at +x, -x, +y, -y, +z and -z. */
+/** Octahedron with semi-axes x, y, z. Vertices in the order +x, -x, +y, -y, +z, -z. */
 inline IndexedSurface Octahedron(const Point& centre, double x, double y, double z)
 {
   const auto& [a, b, c] = centre;
@@ -79,14 +91,13 @@ inline IndexedSurface Octahedron(const Point& centre, double x, double y, double
       { 0, 3, 5 } } };
 }
 
-/** All its edges are as long as is said. */
+/** Octahedron with equal edges. */
 inline IndexedSurface EvenOctahedron(const Point& centre, double edge)
 {
   const double r = edge / std::sqrt(2.);
   return Octahedron(centre, r, r, r);
 }
 
-/** A box of twelve triangles. */
 inline IndexedSurface Cuboid(const Point& low, const Point& high)
 {
   IndexedSurface box;
@@ -104,7 +115,7 @@ inline IndexedSurface Cuboid(const Point& low, const Point& high)
   return box;
 }
 
-/** A double cone along z, with so many neighbours at either tip, 0 and 1; the rest in order. */
+/** Double cone along z. Vertices 0 and 1 are the tips, the others follow in order. */
 inline IndexedSurface MakeDoubleCone(const Point& centre, double radius, double height, int sides)
 {
   IndexedSurface cone;
@@ -121,7 +132,7 @@ inline IndexedSurface MakeDoubleCone(const Point& centre, double radius, double 
   return cone;
 }
 
-/** A torus about the z axis with n x m vertices. */
+/** Torus around the z axis with n x m vertices. */
 inline IndexedSurface MakeTorus(const Point& centre, double major, double minor, int n, int m)
 {
   IndexedSurface surface;

@@ -12,7 +12,7 @@
 
 namespace volumic
 {
-/** A surface in an image, ready for forces to act on it. */
+/** A surface and an image for tests of forces. */
 struct Stage
 {
   TestVolume Volume;
@@ -21,7 +21,7 @@ struct Stage
   std::vector<int> All;
   Executor Threads;
 
-  /** A surface in an image that the test fills in later, or that does not matter: no forces. */
+  /** Surface in an empty image, all forces disabled. */
   Stage(const IndexedSurface& surface, float delta)
     : Volume(MakeVolume(33, [](double, double, double) { return 0.; }))
   {
@@ -36,10 +36,7 @@ struct Stage
     this->UpdateShape();
   }
 
-  /**
-   * A ball of radius 8 about (16, 16, 16), a sphere of the radius given about the same place; all
-   * forces at their defaults.
-   */
+  /** Ball of radius 8 and concentric sphere at (16, 16, 16), default forces. */
   explicit Stage(double radius, float delta = 1)
     : Stage(DividedIcosahedron({ 16, 16, 16 }, radius, 1.6 * delta), delta)
   {
@@ -51,7 +48,7 @@ struct Stage
 
   void UpdateShape() { this->State.UpdateShape(this->All, this->Threads); }
 
-  /** A step of the evolution: velocities and displacements. */
+  /** Apply velocities and displacements of one iteration. @return time step */
   double Push(const std::vector<Proximity::ClosePair>& pairs = {})
   {
     const Field field(this->Volume.Image, this->Options, this->Threads);
@@ -62,7 +59,7 @@ struct Stage
     return step.Time;
   }
 
-  /** A pass of smoothing: velocities only. */
+  /** Compute the velocities of a smoothing pass. */
   void Relax(bool snap, const std::vector<Proximity::ClosePair>& pairs = {})
   {
     const Field field(this->Volume.Image, this->Options, this->Threads);
@@ -77,7 +74,7 @@ struct Stage
     return Normalized(this->State.Mesh.Position[v] - Vector(16, 16, 16));
   }
 
-  /** Mean over the vertices of what they do along the radius from (16, 16, 16). */
+  /** Return the mean radial speed. */
   double MeanSpeedOutward() const
   {
     double sum = 0;
@@ -86,16 +83,6 @@ struct Stage
       sum += Dot(this->State.Velocity[v], this->OutwardAt(v));
     }
     return sum / static_cast<double>(this->All.size());
-  }
-
-  double FastestSpeed() const
-  {
-    double fastest = 0;
-    for (int v : this->All)
-    {
-      fastest = std::max(fastest, static_cast<double>(Length(this->State.Velocity[v])));
-    }
-    return fastest;
   }
 };
 }

@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** A ball in the middle of a cube of n voxels; the iso-value is .5. */
+/** Ball at the centre of n x n x n voxels; iso-value .5. */
 inline TestVolume BallVolume(int n, double radius)
 {
   return MakeVolume(n,
@@ -17,22 +17,22 @@ inline TestVolume BallVolume(int n, double radius)
     { return Soft(Distance(x, y, z, 0.5 * n, 0.5 * n, 0.5 * n) - radius); });
 }
 
-/** A scene as two levels, both sampled; lengths are voxels of the finer one. */
+/** Two sampled levels of a scene. Lengths are voxels of the finer level. */
 struct LevelPair
 {
   TestVolume Fine;
   TestVolume Coarse;
 
-  /** @param shownFine, shownCoarse outside distances, of what each level shows */
-  template <typename ShownFine, typename ShownCoarse>
-  LevelPair(int n, const ShownFine& shownFine, const ShownCoarse& shownCoarse)
-    : Fine(MakeVolume(n, [&](double x, double y, double z) { return Soft(shownFine(x, y, z)); }))
+  /** @param fine, coarse signed distances of each level, positive outside */
+  template <typename FineDistance, typename CoarseDistance>
+  LevelPair(int n, const FineDistance& fine, const CoarseDistance& coarse)
+    : Fine(MakeVolume(n, [&](double x, double y, double z) { return Soft(fine(x, y, z)); }))
   {
-    const int coarse = static_cast<int>(std::lround(n / std::sqrt(3.)));
-    const double step = static_cast<double>(n) / coarse;
-    this->Coarse = MakeVolume(coarse,
+    const int size = static_cast<int>(std::lround(n / std::sqrt(3.)));
+    const double step = static_cast<double>(n) / size;
+    this->Coarse = MakeVolume(size,
       [&](double x, double y, double z)
-      { return Soft(shownCoarse(x * step, y * step, z * step) / step); });
+      { return Soft(coarse(x * step, y * step, z * step) / step); });
     this->Coarse.Image.Step = { step, step, step };
     this->Coarse.Image.Unit = std::sqrt(3.);
   }
@@ -45,11 +45,11 @@ inline SurfaceOptions IsoHalf()
   return options;
 }
 
-/** What most evolutions of tests run on, and who watches them: this thread, and nobody. */
+/** Default executor (one thread) and monitor (never cancels). */
 inline Executor Threads;
 inline Monitor Silent;
 
-/** The steps of EvolveOnLevel(), one by one, level after level. */
+/** Runs the steps of EvolveOnLevel() one by one. */
 class TestEvolution
 {
 public:
@@ -66,13 +66,13 @@ public:
     };
   }
 
-  LevelTask Task; ///< Of the levels to come.
+  LevelTask Task; ///< for the next levels
   ConvergedSurface Rest;
   std::function<void()> AfterSweep;
-  std::unique_ptr<Evolution> Now; ///< On the level.
+  std::unique_ptr<Evolution> Now; ///< on the current level
 
   void StartEnclosing(const LevelImage& image, int level) { this->Start(image, level, {}); }
-  /** @return how many there are */
+  /** @return number of seeds */
   int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& seeds)
   {
     this->Start(image, level, { SurfaceStart::Kind::Seeds, seeds, {} });
@@ -87,11 +87,11 @@ public:
     this->Start(image, level, { SurfaceStart::Kind::IsoSurface, {}, {} });
     LabelComponents(*this->Now);
   }
-  /** @return false where it was stopped before: then it is on the level before. */
+  /** @return false if cancelled; the evolution then stays on the coarser level */
   bool Divide(const LevelImage& image, int level)
   {
     this->Leave();
-    return this->Come(image, level, nullptr);
+    return this->Enter(image, level, nullptr);
   }
   StopReason Run() { return RunLevel(*this->Now); }
   void Leave()
@@ -116,30 +116,30 @@ public:
 private:
   void Start(const LevelImage& image, int level, const SurfaceStart& start)
   {
-    this->Come(image, level, &start);
+    this->Enter(image, level, &start);
   }
-  bool Come(const LevelImage& image, int level, const SurfaceStart* start)
+  bool Enter(const LevelImage& image, int level, const SurfaceStart* start)
   {
     this->Task.Image = image;
     this->Task.Level = level;
     this->Task.Start = start;
     auto before = std::exchange(this->Now,
       std::make_unique<Evolution>(this->Task, this->Rest.History, this->Executing, this->Listener));
-    const bool hasCome = ReachLevel(*this->Now, this->Rest);
-    if (!hasCome)
+    const bool hasReached = ReachLevel(*this->Now, this->Rest);
+    if (!hasReached)
     {
       before->State.Mesh = std::move(this->Rest.Mesh);
       before->Stopped = true;
       this->Now = std::move(before);
     }
-    return hasCome;
+    return hasReached;
   }
 
   Executor& Executing;
   Monitor& Listener;
 };
 
-/** Lengths of all edges, each twice. */
+/** Return the lengths of all edges, each twice. */
 inline std::vector<double> EdgeLengths(const IndexedSurface& surface)
 {
   std::vector<double> lengths;
@@ -155,12 +155,17 @@ inline std::vector<double> EdgeLengths(const IndexedSurface& surface)
   return lengths;
 }
 
-/** Eq. (1). */
-inline void ExpectLegalEdges(const SurfaceResult& surface)
+inline void ExpectEdgesWithin(const IndexedSurface& surface, double shortest, double longest)
 {
   const std::vector<double> lengths = EdgeLengths(surface);
-  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), surface.Delta * (1 - 1e-5));
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), surface.Delta * 2.5 * (1 + 1e-5));
+  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), shortest);
+  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), longest);
+}
+
+/** Expect edge lengths within the bounds of eq. (1). */
+inline void ExpectLegalEdges(const SurfaceResult& surface)
+{
+  ExpectEdgesWithin(surface, surface.Delta * (1 - 1e-5), surface.Delta * 2.5 * (1 + 1e-5));
 }
 }
 

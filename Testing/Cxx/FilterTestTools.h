@@ -20,26 +20,26 @@
 #include <vtkSmartPointer.h>
 #include <vtkWeakPointer.h>
 
-/** What the tests of the VTK classes share. */
+/** Tools for tests of VTK classes. */
 namespace volumic
 {
-/** Collects what an algorithm or executive says under an event (errors, warnings), unprinted. */
+/** Collects the messages of an event (errors, warnings) without printing them. */
 class MessagesOf
 {
 public:
-  explicit MessagesOf(vtkObject* speaker, unsigned long event = vtkCommand::ErrorEvent)
+  explicit MessagesOf(vtkObject* sender, unsigned long event = vtkCommand::ErrorEvent)
   {
     this->Command->SetClientData(&this->Text);
     this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
       { *static_cast<std::string*>(client) += static_cast<const char*>(message); });
-    this->Speaker = speaker;
-    this->Tag = speaker->AddObserver(event, this->Command);
+    this->Sender = sender;
+    this->Tag = sender->AddObserver(event, this->Command);
   }
   ~MessagesOf()
   {
-    if (this->Speaker)
+    if (this->Sender)
     {
-      this->Speaker->RemoveObserver(this->Tag);
+      this->Sender->RemoveObserver(this->Tag);
     }
   }
   MessagesOf(const MessagesOf&) = delete;
@@ -51,7 +51,7 @@ public:
 private:
   std::string Text;
   vtkNew<vtkCallbackCommand> Command;
-  vtkWeakPointer<vtkObject> Speaker;
+  vtkWeakPointer<vtkObject> Sender;
   unsigned long Tag = 0;
 };
 
@@ -72,7 +72,7 @@ inline vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port = 0)
     output->GetNumberOfElements(vtkDataObject::ROW);
 }
 
-/** Update a filter and expect an error that has these parts, and an empty output. */
+/** Update a filter. Expect an error that contains these parts, and an empty output. */
 inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& parts)
 {
   const std::string errors = MessagesOfUpdate(filter);
@@ -80,11 +80,11 @@ inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& 
   {
     EXPECT_TRUE(Has(errors, part));
   }
-  EXPECT_EQ(SizeOfOutput(filter), 0) << "no output half made";
+  EXPECT_EQ(SizeOfOutput(filter), 0) << "the output must be empty";
   EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
 }
 
-/** How often a text has a part. */
+/** Count the occurrences of a part in a text. */
 inline int CountOf(const std::string& text, const std::string& part)
 {
   int count = 0;
@@ -95,25 +95,23 @@ inline int CountOf(const std::string& text, const std::string& part)
   return count;
 }
 
-/** Level h of a pyramid. */
 inline vtkImageData* Level(vtkMultiBlockDataSet* pyramid, unsigned int h)
 {
   return vtkImageData::SafeDownCast(pyramid->GetBlock(h));
 }
 
-/** The active scalars. */
 inline vtkDataArray* Voxels(vtkImageData* image)
 {
   return image->GetPointData()->GetScalars();
 }
 
-/** U_h of a level. */
+/** Return the unit U_h of a level. */
 inline double UnitOf(vtkImageData* level)
 {
   return level->GetFieldData()->GetArray("Unit")->GetComponent(0, 0);
 }
 
-/** What a test sets of a filter; of which filter a call says, as it cannot be deduced. */
+/** Settings of a filter. The type is not deducible, so calls name the filter class. */
 template <typename Filter>
 struct ChoiceFor
 {
@@ -142,23 +140,24 @@ inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int level
     image, [levels](vtkImagePyramid* pyramid) { pyramid->SetNumberOfLevels(levels); });
 }
 
-/** Calls back at each progress of an algorithm, as long as it is in scope. */
+/** Calls a function at each progress event of an algorithm. */
 class ProgressHook
 {
 public:
-  using Callback = std::function<void(vtkAlgorithm* filter, const std::string& text, double share)>;
+  using Callback =
+    std::function<void(vtkAlgorithm* filter, const std::string& text, double progress)>;
 
   ProgressHook(vtkAlgorithm* algorithm, Callback callback)
     : Algorithm(algorithm), Call(std::move(callback))
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void* share)
+      [](vtkObject* caller, unsigned long, void* client, void* progress)
       {
         auto* filter = vtkAlgorithm::SafeDownCast(caller);
         const char* text = filter->GetProgressText();
         static_cast<ProgressHook*>(client)->Call(
-          filter, text ? text : "", *static_cast<double*>(share));
+          filter, text ? text : "", *static_cast<double*>(progress));
       });
     algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
   }
@@ -178,7 +177,7 @@ private:
   vtkNew<vtkCallbackCommand> Command;
 };
 
-/** Listens to the progress and asks to stop once it has heard a share. */
+/** Records the progress and aborts the filter at StopAt. */
 struct ProgressListener
 {
   std::vector<double> Shares;
@@ -187,14 +186,14 @@ struct ProgressListener
 
   explicit ProgressListener(vtkAlgorithm* algorithm)
     : Hook(algorithm,
-        [this](vtkAlgorithm* filter, const std::string& text, double share)
+        [this](vtkAlgorithm* filter, const std::string& text, double progress)
         {
-          this->Shares.push_back(share);
+          this->Shares.push_back(progress);
           if (!text.empty())
           {
             this->Texts.insert(text);
           }
-          if (share >= this->StopAt)
+          if (progress >= this->StopAt)
           {
             filter->SetAbortExecute(1);
           }
@@ -205,24 +204,23 @@ struct ProgressListener
   ProgressHook Hook;
 };
 
-/** Asks to stop at the n-th progress whose text has a part. */
+/** Aborts a filter at the n-th progress event whose text contains a part. */
 struct StopAtText
 {
   int Left;
-  int After = 0; ///< Progress events after the request.
+  int After = 0; ///< progress events after the request
 
   StopAtText(vtkAlgorithm* algorithm, const std::string& part, int left)
-    : Left(left)
-    , Hook(algorithm,
-        [this, part](vtkAlgorithm* filter, const std::string& text, double share)
-        {
-          // VTK 9.2 tells of the end, 1, where a filter was stopped, too.
-          this->After += this->Left <= 0 && share < 1.0;
-          if (text.find(part) != std::string::npos && --this->Left == 0)
-          {
-            filter->SetAbortExecute(1);
-          }
-        })
+    : Left(left), Hook(algorithm,
+                    [this, part](vtkAlgorithm* filter, const std::string& text, double progress)
+                    {
+                      // VTK 9.2 reports progress 1 after an abort, too.
+                      this->After += this->Left <= 0 && progress < 1.0;
+                      if (text.find(part) != std::string::npos && --this->Left == 0)
+                      {
+                        filter->SetAbortExecute(1);
+                      }
+                    })
   {
   }
 
@@ -239,22 +237,23 @@ inline vtkSmartPointer<vtkImageData> ImageOf(const std::array<int, 3>& size,
   image->AllocateScalars(scalarType, 1);
   Voxels(image)->SetName(name);
   vtkIdType index = 0;
-  ForVoxels(size,
-    [&](int i, int j, int k) { Voxels(image)->SetComponent(index++, 0, valueAt(i, j, k)); });
+  ForVoxels(
+    size, [&](int i, int j, int k) { Voxels(image)->SetComponent(index++, 0, valueAt(i, j, k)); });
   return image;
 }
 
-/** An image with random voxels in [0, 100]. */
+/** Return an image with random voxels in [0, 100]. */
 inline vtkSmartPointer<vtkImageData> RandomImage(int nx, int ny, int nz, int scalarType = VTK_FLOAT)
 {
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> value(0.0, 100.0);
-  return ImageOf({ nx, ny, nz }, [&](int, int, int) { return value(generator); }, scalarType);
+  return ImageOf(
+    { nx, ny, nz }, [&](int, int, int) { return value(generator); }, scalarType);
 }
 
 /**
- * A bright ball (100) in the dark (0), its radius a share of the shortest side; float `Voxels`.
- * Values fall over about two voxels at the boundary, so that 50 is a sphere.
+ * Return a bright ball (100) on background (0) with a ramp of two voxels; iso-value 50.
+ * @param radiusShare radius relative to the shortest side
  */
 inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double radiusShare = 0.3)
 {
@@ -270,7 +269,7 @@ inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double ra
     });
 }
 
-/** Sets the voxels from first to before end of an image that begins at 0. */
+/** Set the voxels in [first, end) of an image whose extent begins at 0. */
 inline void FillBox(vtkImageData* image, const std::array<int, 3>& first,
   const std::array<int, 3>& end, double value = 100.0)
 {

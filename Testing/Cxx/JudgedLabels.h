@@ -10,7 +10,7 @@
 
 #include <vtkMultiBlockDataSet.h>
 
-/** What tests share that have surfaces of labels judged. */
+/** Tools for tests that judge label surfaces. */
 namespace volumic::support
 {
 using Filter = vtkSmartPointer<vtkLabelsToSurfaces>;

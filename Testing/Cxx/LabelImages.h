@@ -13,7 +13,7 @@
 #include <vtkStringArray.h>
 #include <vtkUnsignedCharArray.h>
 
-/** What the tests of vtkLabelsToSurfaces share. */
+/** Tools for tests of vtkLabelsToSurfaces. */
 namespace volumic
 {
 /** A label map with the label that labelAt(i, j, k) names, of any type; `Labels`. */

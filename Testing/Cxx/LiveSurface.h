@@ -9,7 +9,7 @@
 
 namespace volumic
 {
-/** A surface with its shape, of whose neighbourhood nothing is known yet. */
+/** A surface with its shape, without a proximity test. */
 struct LiveSurface : SurfaceState
 {
   explicit LiveSurface(const IndexedSurface& surface, float delta = 1)
@@ -29,14 +29,6 @@ struct LiveSurface : SurfaceState
     std::vector<int> all(this->Mesh.Size());
     std::iota(all.begin(), all.end(), 0);
     return all;
-  }
-
-private:
-  static SurfaceMesh MeshOf(const IndexedSurface& surface)
-  {
-    SurfaceMesh mesh;
-    mesh.Append(surface);
-    return mesh;
   }
 };
 

@@ -9,9 +9,8 @@
 namespace volumic
 {
 /**
- * Every invariant of a live mesh that holds at any time: consistent rings, no duplicate
- * neighbours, both orientations of each edge, finite positions, free list.
- * @return an empty string, or what is broken.
+ * Test the invariants of a mesh: consistent rings, no duplicate neighbours, both orientations of
+ * each edge, finite positions, free list. @return description of the first fault, empty if valid
  */
 inline std::string DescribeBrokenInvariant(const SurfaceMesh& mesh)
 {
@@ -48,7 +47,7 @@ inline std::string DescribeBrokenInvariant(const SurfaceMesh& mesh)
           return name + " has the neighbour " + std::to_string(w) + " twice";
         }
       }
-      // The face (v, w, next) must be seen from w as (w, next, v).
+      // The face (v, w, next) must be (w, next, v) in the ring of w.
       const Ring& other = mesh.Rings[w];
       const int at = other.Find(ring.Next(i));
       if (at < 0 || other.Next(at) != v)

@@ -11,7 +11,7 @@
 
 namespace volumic
 {
-/** A live surface without neighbourhood in an evolution; delta is 1. */
+/** A surface state with delta 1, without an evolution. */
 struct Bench
 {
   SurfaceState State;
@@ -40,13 +40,13 @@ struct Bench
 
   void UpdateShape() { this->State.UpdateShape(this->All(), this->Threads); }
 
-  void MoveTo(int v, const Vector& place)
+  void MoveTo(int v, const Vector& position)
   {
-    this->State.MoveTo(v, place);
+    this->State.MoveTo(v, position);
     this->UpdateShape();
   }
 
-  /** Lengths of all edges, twice each. */
+  /** Return the lengths of all edges, each twice. */
   std::vector<float> Edges() const
   {
     std::vector<float> edges;
@@ -71,7 +71,7 @@ struct Bench
     return *std::min_element(edges.begin(), edges.end());
   }
 
-  /** What must hold after any edits. */
+  /** Test the invariants after edits. */
   bool IsSound() const
   {
     return DescribeBrokenInvariant(this->State.Mesh).empty() &&

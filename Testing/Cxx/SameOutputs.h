@@ -14,7 +14,7 @@
 
 #include <cstring>
 
-/** Tests that compare runs of vtkDeformableSurface to the bit. */
+/** Bit-identical comparison of outputs of vtkDeformableSurface. */
 namespace volumic
 {
 inline void ExpectSameArrays(vtkFieldData* a, vtkFieldData* b)
@@ -34,7 +34,7 @@ inline void ExpectSameArrays(vtkFieldData* a, vtkFieldData* b)
     if (vtkDataArray::SafeDownCast(one))
     {
       const auto bytes = static_cast<std::size_t>(n * one->GetDataTypeSize());
-      ASSERT_TRUE(bytes == 0 || // nothing may be nowhere
+      ASSERT_TRUE(bytes == 0 || // the pointer may be null
         std::memcmp(one->GetVoidPointer(0), other->GetVoidPointer(0), bytes) == 0);
       continue;
     }
@@ -70,7 +70,7 @@ inline void ExpectSameBlocks(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
   }
 }
 
-/** Settings whose runs have more than the default one to keep while they are stopped. */
+/** Return settings with more state to keep in a cancelled run than the defaults. */
 inline std::vector<Choice> ChoicesOfRuns()
 {
   return { [](vtkDeformableSurface*) {},
@@ -81,7 +81,7 @@ inline std::vector<Choice> ChoicesOfRuns()
     [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); } };
 }
 
-/** All outputs, but for the seconds. */
+/** Expect identical outputs, except for the column Seconds. */
 inline void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
 {
   ExpectSameSurfaces(a->GetOutput(), b->GetOutput());

@@ -13,12 +13,12 @@
 #include <vtkSphereSource.h>
 #include <vtkStringArray.h>
 
-/** What the tests of vtkDeformableSurface share. */
+/** Tools for tests of vtkDeformableSurface. */
 namespace volumic
 {
 using Choice = ChoiceOf<vtkDeformableSurface>;
 
-/** A filter for the objects of FilterTestTools.h, with what is chosen; not updated yet. */
+/** Return a filter with iso-value 50 and these settings, not updated. */
 template <typename Filter = vtkDeformableSurface>
 vtkSmartPointer<Filter> FilterOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
 {
@@ -32,7 +32,7 @@ vtkSmartPointer<Filter> FilterOf(vtkDataObject* input, const ChoiceOf<Filter>& c
   return filter;
 }
 
-/** The updated one. */
+/** Return an updated filter with iso-value 50 and these settings. */
 template <typename Filter = vtkDeformableSurface>
 vtkSmartPointer<Filter> SurfaceOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
 {
@@ -41,7 +41,7 @@ vtkSmartPointer<Filter> SurfaceOf(vtkDataObject* input, const ChoiceOf<Filter>& 
   return filter;
 }
 
-/** Value i of a numeric array of the field data, counted over its components; NaN without it. */
+/** Return component i of a field data array; NaN if the array does not exist. */
 inline double FieldOf(vtkPolyData* surface, const char* name, int i = 0)
 {
   vtkDataArray* array = surface->GetFieldData()->GetArray(name);
@@ -50,7 +50,6 @@ inline double FieldOf(vtkPolyData* surface, const char* name, int i = 0)
     : std::nan("");
 }
 
-/** The field of that name. */
 inline std::string StopReason(vtkPolyData* surface)
 {
   auto* reason =
@@ -58,7 +57,7 @@ inline std::string StopReason(vtkPolyData* surface)
   return reason ? reason->GetValue(0) : "";
 }
 
-/** Signed, unlike that of vtkMassProperties: negative if the triangles look inward. */
+/** Return the signed volume: negative if the triangles are oriented inward. */
 inline double EnclosedVolume(vtkPolyData* surface)
 {
   double volume = 0.0;
@@ -79,27 +78,27 @@ inline double EnclosedVolume(vtkPolyData* surface)
   return volume;
 }
 
-/** What is at a level of the output Levels. */
+/** Return the surface of a level. */
 inline vtkPolyData* SurfaceAt(vtkDeformableSurface* filter, unsigned int level)
 {
   return vtkPolyData::SafeDownCast(filter->GetLevels()->GetBlock(level));
 }
 
-/** Points without cells. */
-inline vtkSmartPointer<vtkPolyData> PointsAt(const std::vector<std::array<double, 3>>& places)
+/** Return points without cells. */
+inline vtkSmartPointer<vtkPolyData> PointsAt(const std::vector<std::array<double, 3>>& positions)
 {
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
-  for (const auto& place : places)
+  for (const auto& position : positions)
   {
-    points->InsertNextPoint(place.data());
+    points->InsertNextPoint(position.data());
   }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(points);
   return data;
 }
 
-/** VTK's sphere, with so many sides about its axis and along it. */
+/** Return a sphere of vtkSphereSource with this resolution. */
 inline vtkSmartPointer<vtkPolyData> SphereAt(
   const std::array<double, 3>& centre, double radius, int sides = 8)
 {
@@ -112,7 +111,7 @@ inline vtkSmartPointer<vtkPolyData> SphereAt(
   return sphere->GetOutput();
 }
 
-/** Calls visit(p, q) with the ends of each edge of each triangle: of those within, twice. */
+/** Call visit(p, q) for each edge of each triangle. */
 template <typename Visit>
 void VisitEdges(vtkPolyData* surface, const Visit& visit)
 {
@@ -132,7 +131,7 @@ void VisitEdges(vtkPolyData* surface, const Visit& visit)
   }
 }
 
-/** How many edges do not have two triangles. */
+/** Count the edges that do not have two triangles. */
 inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
 {
   vtkNew<vtkFeatureEdges> edges;
@@ -144,7 +143,7 @@ inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
   return static_cast<int>(edges->GetOutput()->GetNumberOfCells());
 }
 
-/** A closed surface whose points and normals are those of a sphere. */
+/** Expect a closed surface with the points and normals of a sphere. */
 inline void ExpectSphere(
   vtkPolyData* surface, const double* centre, double radius, double tolerance)
 {
@@ -162,7 +161,7 @@ inline void ExpectSphere(
     0.03 * 4. * std::pow(radius, 3));
 }
 
-/** The same points, to the bit, and as many triangles. */
+/** Whether the points are bit-identical and the numbers of triangles are equal. */
 inline bool AreSameSurfaces(vtkPolyData* a, vtkPolyData* b)
 {
   if (a->GetNumberOfPoints() != b->GetNumberOfPoints() ||
@@ -184,7 +183,7 @@ inline bool AreSameSurfaces(vtkPolyData* a, vtkPolyData* b)
   return true;
 }
 
-/** BallImage(40, 40, 40). */
+/** Ball of BallImage(40, 40, 40). */
 constexpr double BallCentre[3] = { 19.5, 19.5, 19.5 };
 constexpr double BallRadius = 0.3 * 40;
 }

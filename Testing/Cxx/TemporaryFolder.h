@@ -13,7 +13,7 @@
 
 namespace volumic
 {
-/** A new folder, which goes with the object. */
+/** A new folder, deleted with the object. */
 class TemporaryFolder
 {
 public:
@@ -48,7 +48,7 @@ private:
   std::string Name;
 };
 
-/** While it lives no file of the process grows beyond so many bytes: as if the disk were full. */
+/** Limits the size of files of the process until destruction, to simulate a full disk. */
 class LimitedFileSize
 {
 public:

@@ -12,7 +12,7 @@ namespace
 {
 Executor Threads;
 
-/** 100 below the plane x = 6, 0 above, falling over two voxels; the points act far from it. */
+/** 100 for x < 6, 0 above, with a ramp of two voxels. */
 TestVolume Half()
 {
   return MakeVolume(33, [](double x, double, double) { return 100. * Soft(x - 6.); });
@@ -26,20 +26,20 @@ SurfaceOptions HalfOptions(double iso)
 }
 }
 
-TEST(PointAttraction, TurnsHalfOfTheFieldRoundAtItsRadius)
+TEST(PointAttraction, AddsHalfStrengthAtRadius)
 {
-  // 50 below the iso-value, with boundaries of 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
+  // Value V = -50 relative to the iso-value, slope 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
   const TestVolume volume = Half();
   const std::vector<float> bent = PointAttraction({ { { 20, 16, 16 }, 1., 4. } }, 1.)
                                     .Bend(volume.Image, HalfOptions(50), Threads);
-  for (const std::array<int, 3>& voxel : { std::array<int, 3>{ 24, 16, 16 }, { 20, 12, 16 },
-         { 20, 16, 20 } })
+  for (const std::array<int, 3>& voxel :
+    { std::array<int, 3>{ 24, 16, 16 }, { 20, 12, 16 }, { 20, 16, 20 } })
   {
     EXPECT_NEAR(bent[voxel[0] + 33 * (voxel[1] + 33 * voxel[2])], 50 - 50 + 0.5 * 112.5, 0.05);
   }
 }
 
-TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
+TEST(PointAttraction, ChangesOnlyVoxelsInRangeForAnyThreadCount)
 {
   const TestVolume volume = Half();
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
@@ -60,7 +60,7 @@ TEST(PointAttraction, LeavesWhatIsFarAsItIsAndDoesNotDependOnTheExecutor)
   EXPECT_GT(changed, 900);
 }
 
-TEST(EdgeAttraction, LeadsToTheRidgeFromBothSidesWhateverTheScale)
+TEST(EdgeAttraction, PointsToRidgeFromBothSidesAtAnyScale)
 {
   for (double scale : { 0.01, 1000. })
   {

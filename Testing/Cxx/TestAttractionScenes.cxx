@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the iso-value alone can't do: a few points close a gap in a wall, a map of edges finds a
-// boundary that no iso-value gives.
+// Attraction by points closes gaps. Attraction by edges segments objects without a fitting
+// iso-value.
 #include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceTestTools.h"
@@ -16,17 +16,17 @@ using namespace volumic::support;
 namespace
 {
 constexpr double Pi = 3.14159265358979;
-/** Of SceneKind::ShellWithOpening, at 64 voxels. */
+/** Outer radius of SceneKind::ShellWithOpening at 64 voxels. */
 constexpr double OuterRadius = 26.0;
 double BallVolume(double radius)
 {
   return 4.0 / 3.0 * Pi * radius * radius * radius;
 }
 
-/** One point in the middle of the shell's opening, six about it. */
+/** Return a point at the centre of the opening and six around it. */
 vtkSmartPointer<vtkPolyData> PointsInTheOpening(const Scene& scene)
 {
-  // The scene's seed lies in the middle of the wall, opposite of the opening.
+  // The seed of the scene is in the wall, opposite to the opening.
   const double middle = 0.5 * (scene.Size[0] - 1);
   std::array<double, 3> axis;
   for (int a = 0; a < 3; ++a)
@@ -95,7 +95,7 @@ vtkSmartPointer<vtkImageData> GradientMagnitude(vtkImageData* image)
   return gradient->GetOutput();
 }
 
-/** The scene with its gradient magnitude as a second array, `Edges`. */
+/** Return the scene with its gradient magnitude as array `Edges`. */
 vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
 {
   const auto image = ToImage(scene);
@@ -106,10 +106,7 @@ vtkSmartPointer<vtkImageData> WithEdges(const Scene& scene)
   return image;
 }
 
-/**
- * Half of the way from the iso-value of the middle to the brightest voxel: the surface shrinks
- * over background and object, and only the edges can stop it.
- */
+/** Return a filter whose iso-value is so high that only the edges stop the surface. */
 vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const Scene& scene)
 {
   const double brightest = *std::max_element(scene.Values.begin(), scene.Values.end());
@@ -120,13 +117,14 @@ vtkSmartPointer<vtkDeformableSurface> EdgeFilterOf(vtkDataObject* input, const S
 }
 }
 
-TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
+TEST(PointAttractionScene, ClosesGapWithFewPoints)
 {
   const Scene scene = MakeScene(SceneKind::ShellWithOpening);
   const auto image = ToImage(scene);
   const auto leaking = FilterAt(image, scene.IsoValue);
   JudgeOutput(leaking);
-  EXPECT_LT(VolumeOf(leaking), 0.7 * BallVolume(OuterRadius)) << "the scene must need points";
+  EXPECT_LT(VolumeOf(leaking), 0.7 * BallVolume(OuterRadius))
+    << "the scene must leak without points";
 
   const auto closed = FilterAt(image, scene.IsoValue);
   closed->SetAttractingPointsData(PointsInTheOpening(scene));
@@ -140,12 +138,12 @@ TEST(PointAttractionScene, AFewPointsCloseTheGapThroughWhichTheSurfaceLeaks)
   EXPECT_EQ(VolumeOf(closed), VolumeOf(leaking));
 }
 
-TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
+TEST(EdgeAttractionScene, SegmentsShadedObject)
 {
   const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
   ASSERT_FALSE(scene.OneIsoValueFits);
   const auto image = WithEdges(scene);
-  vtkNew<vtkImagePyramid> pyramid; // Of the voxels: that of the edges is made.
+  vtkNew<vtkImagePyramid> pyramid; // without edges: the filter computes their pyramid
   pyramid->SetInputData(image);
   pyramid->SetReductionFactor(1.5);
   pyramid->Update();
@@ -156,14 +154,13 @@ TEST(EdgeAttractionScene, FindsABoundaryThatNoIsoValueGives)
     const SurfaceVerdict verdict = JudgeOutput(filter);
     EXPECT_EQ(verdict.Topology.Components.size(), 1u);
     EXPECT_EQ(verdict.Topology.Genus, 0);
-    EXPECT_LT(ShareOfWrongVoxels(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
+    EXPECT_LT(MisclassifiedFraction(ToTriangleSurface(filter->GetOutput()), scene), 0.03);
   }
 }
 
-TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
+TEST(GradientForce, SegmentsShadedObject)
 {
-  // Descent along the gradient of the negative gradient magnitude, whose valleys are the
-  // boundaries.
+  // The boundaries are the minima of the negative gradient magnitude.
   const Scene scene = MakeScene(SceneKind::ShadedEllipsoid);
   const auto potential = GradientMagnitude(ToImage(scene));
   vtkDataArray* values = potential->GetPointData()->GetScalars();
@@ -172,7 +169,7 @@ TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
     values->SetComponent(i, 0, -values->GetComponent(i, 0));
   }
   values->Modified();
-  // The isopotential brings the surface to the edge's foot, from where the gradient takes it down.
+  // The isopotential force moves the surface near the boundary, the gradient force onto it.
   const auto filter = FilterAt(potential, 0.3 * potential->GetScalarRange()[0]);
   filter->ObjectIsBrightOff();
   filter->SetIsopotentialWeight(0.3);
@@ -187,5 +184,5 @@ TEST(GradientForce, SegmentsWhatNoIsoValueDoes)
   EXPECT_EQ(topology.Components.size(), 1u);
   EXPECT_EQ(topology.Genus, 0);
   EXPECT_EQ(JudgeIntersections(surface).Pairs, 0u);
-  EXPECT_LT(ShareOfWrongVoxels(surface, scene), 0.02);
+  EXPECT_LT(MisclassifiedFraction(surface, scene), 0.02);
 }

@@ -12,7 +12,6 @@ namespace
 {
 using Neighbours = std::vector<std::vector<int>>;
 
-/** From 0 on. */
 std::vector<int> InOrder(int n)
 {
   std::vector<int> order(static_cast<std::size_t>(n));
@@ -20,13 +19,13 @@ std::vector<int> InOrder(int n)
   return order;
 }
 
-/** Items that do not touch. */
-BlockSchedule Apart(int n)
+/** Blocks without neighbours. */
+BlockSchedule Independent(int n)
 {
   return BlockSchedule(InOrder(n), [](int) { return std::vector<int>(); });
 }
 
-/** Each touches the one before it. */
+/** Blocks that are neighbours of the previous and the next one. */
 BlockSchedule ChainOf(int n)
 {
   return BlockSchedule(InOrder(n),
@@ -50,12 +49,12 @@ bool Always(std::size_t)
   return true;
 }
 
-/** Cells of a box of this size: those that have a corner in common touch, but for some left out. */
-Neighbours GridOf(const std::array<int, 3>& size, double share, std::mt19937& random)
+/** Cells of a grid. Pairs with a common corner are neighbours with a probability. */
+Neighbours GridOf(const std::array<int, 3>& size, double probability, std::mt19937& random)
 {
   Neighbours neighbours(static_cast<std::size_t>(size[0] * size[1] * size[2]));
   std::uniform_real_distribution<double> chance(0., 1.);
-  const auto placeOf = [&size](int item)
+  const auto ijkOf = [&size](int item)
   {
     const int row = item / size[0];
     return std::array<int, 3>{ item % size[0], row % size[1], row / size[1] };
@@ -64,10 +63,10 @@ Neighbours GridOf(const std::array<int, 3>& size, double share, std::mt19937& ra
   {
     for (int b = a + 1; b < static_cast<int>(neighbours.size()); ++b)
     {
-      const std::array<int, 3> p = placeOf(a);
-      const std::array<int, 3> q = placeOf(b);
+      const std::array<int, 3> p = ijkOf(a);
+      const std::array<int, 3> q = ijkOf(b);
       if (std::abs(p[0] - q[0]) <= 1 && std::abs(p[1] - q[1]) <= 1 && std::abs(p[2] - q[2]) <= 1 &&
-        chance(random) < share)
+        chance(random) < probability)
       {
         neighbours[a].push_back(b);
         neighbours[b].push_back(a);
@@ -89,69 +88,69 @@ BlockSchedule ScheduleOf(const std::vector<int>& order, const Neighbours& neighb
   return BlockSchedule(order, [&neighbours](int item) { return neighbours[item]; });
 }
 
-/** Hears of visits from any thread, and whether each comes when it may. */
-class Book
+/** Records block passes from all threads and tests their order. */
+class PassRecorder
 {
 public:
-  Book(const std::vector<int>& order, const Neighbours& neighbours)
-    : Touching(neighbours), Place(order.size()), Begun(order.size(), 0), Ended(order.size(), 0)
+  PassRecorder(const std::vector<int>& order, const Neighbours& neighbours)
+    : Adjacent(neighbours), Rank(order.size()), Begun(order.size(), 0), Ended(order.size(), 0)
   {
     for (std::size_t i = 0; i < order.size(); ++i)
     {
-      this->Place[order[i]] = i;
+      this->Rank[order[i]] = i;
     }
   }
 
   void Begin(int item)
   {
-    const std::size_t place = this->Place[item];
+    const std::size_t rank = this->Rank[item];
     const std::lock_guard<std::mutex> lock(this->Mutex);
-    this->Check(++this->Begun[item] == 1, item, "visited again");
-    for (const int other : this->Touching[item])
+    this->Check(++this->Begun[item] == 1, item, "repeated");
+    for (const int other : this->Adjacent[item])
     {
-      this->Check(this->Begun[other] == this->Ended[other], item, "at the same time");
-      this->Check((this->Ended[other] == 1) == (this->Place[other] < place), item, "out of turn");
+      this->Check(this->Begun[other] == this->Ended[other], item, "concurrent with a neighbour");
+      this->Check((this->Ended[other] == 1) == (this->Rank[other] < rank), item, "out of order");
     }
-    ++this->UnderWay;
-    this->Most = std::max(this->Most, this->UnderWay);
+    ++this->Running;
+    this->MostRunning = std::max(this->MostRunning, this->Running);
   }
   void End(int item)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     ++this->Ended[item];
-    --this->UnderWay;
+    --this->Running;
   }
 
-  /** What was wrong first; empty: nothing. */
-  std::string Wrong() const
+  /** Return the first error; empty: none. */
+  std::string Error() const
   {
-    const bool areAllVisited =
-      std::all_of(this->Ended.begin(), this->Ended.end(), [](int visits) { return visits == 1; });
-    return this->First.empty() && !areAllVisited ? "some were left out" : this->First;
+    const bool areAllDone =
+      std::all_of(this->Ended.begin(), this->Ended.end(), [](int passes) { return passes == 1; });
+    return this->First.empty() && !areAllDone ? "incomplete" : this->First;
   }
-  int MostUnderWay() const { return this->Most; }
+  int MaximumConcurrency() const { return this->MostRunning; }
 
 private:
-  void Check(bool isRight, int item, const char* what)
+  void Check(bool isValid, int item, const char* error)
   {
-    if (!isRight && this->First.empty())
+    if (!isValid && this->First.empty())
     {
-      this->First = std::to_string(item) + ": " + what;
+      this->First = std::to_string(item) + ": " + error;
     }
   }
 
-  const Neighbours& Touching;
-  std::vector<std::size_t> Place;
-  std::vector<int> Begun; ///< How often.
+  const Neighbours& Adjacent;
+  std::vector<std::size_t> Rank;
+  std::vector<int> Begun; ///< number of passes
   std::vector<int> Ended;
-  int UnderWay = 0;
-  int Most = 0;
+  int Running = 0;
+  int MostRunning = 0;
   std::string First;
   std::mutex Mutex;
 };
 }
 
-TEST(BlockSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
+TEST(BlockSchedule, RunsEachBlockOnceAndNeverWithNeighbours)
 {
   std::mt19937 random(20);
   for (const int threads : { 1, 2, 5 })
@@ -168,28 +167,28 @@ TEST(BlockSchedule, VisitsEachOnceAndNeverWhatTouchesAtTheSameTime)
       std::vector<int> delays(static_cast<std::size_t>(n));
       std::generate(
         delays.begin(), delays.end(), [&random] { return static_cast<int>(random() % 200); });
-      Book book(order, neighbours);
+      PassRecorder recorder(order, neighbours);
       const bool areAllDone =
         ScheduleOf(order, neighbours)
           .Run(
             executor,
             [&](int item)
             {
-              book.Begin(item);
+              recorder.Begin(item);
               std::this_thread::sleep_for(std::chrono::microseconds(delays[item]));
-              book.End(item);
+              recorder.End(item);
             },
             Always);
       EXPECT_TRUE(areAllDone);
-      EXPECT_EQ(book.Wrong(), "");
-      EXPECT_LE(book.MostUnderWay(), threads);
+      EXPECT_EQ(recorder.Error(), "");
+      EXPECT_LE(recorder.MaximumConcurrency(), threads);
     }
   }
 }
 
-TEST(BlockSchedule, MakesWhatOneThreadWouldMake)
+TEST(BlockSchedule, IsIndependentOfThreadCount)
 {
-  // What a visit makes depends on what those that it touches have made before.
+  // The result of a block depends on its neighbours.
   std::mt19937 random(4);
   const Neighbours neighbours = GridOf({ 7, 6, 5 }, 0.8, random);
   const std::vector<int> order = Shuffled(7 * 6 * 5, random);
@@ -221,22 +220,22 @@ TEST(BlockSchedule, MakesWhatOneThreadWouldMake)
   }
 }
 
-TEST(BlockSchedule, KeepsTheOrderOnOneThread)
+TEST(BlockSchedule, PreservesOrderOnOneThread)
 {
   std::mt19937 random(5);
   const Neighbours neighbours = GridOf({ 5, 4, 3 }, 0.7, random);
   const std::vector<int> order = Shuffled(60, random);
   Executor thread;
-  std::vector<int> visited;
+  std::vector<int> done;
   EXPECT_TRUE(ScheduleOf(order, neighbours)
                 .Run(
-                  thread, [&visited](int item) { visited.push_back(item); }, Always));
-  EXPECT_EQ(visited, order);
+                  thread, [&done](int item) { done.push_back(item); }, Always));
+  EXPECT_EQ(done, order);
 }
 
-TEST(BlockSchedule, WaitsForNoMoreThanWhatItTouches)
+TEST(BlockSchedule, WaitsOnlyForNeighbours)
 {
-  // The first one ends when all have been visited but the one that touches it.
+  // The first block waits for all except its neighbour.
   constexpr int n = 40;
   const BlockSchedule schedule(InOrder(n),
     [](int item)
@@ -249,30 +248,29 @@ TEST(BlockSchedule, WaitsForNoMoreThanWhatItTouches)
     [&](int item)
     {
       others += item > 1;
-      isFree = isFree || (item == 0 && HasReachedEnd([&] { return others == n - 2; }));
+      isFree = isFree || (item == 0 && WaitFor([&] { return others == n - 2; }));
     },
     Always);
   EXPECT_TRUE(isFree);
   EXPECT_EQ(others, n - 2);
 }
 
-TEST(BlockSchedule, HandsOnWhatAVisitThrows)
+TEST(BlockSchedule, RethrowsExceptions)
 {
-  constexpr int n =
-    5000; // More than can be made before others hear of it, on a machine however slow.
+  constexpr int n = 5000; // more than are completed before the exception
   const BlockSchedule chain = ChainOf(n);
-  const BlockSchedule apart = Apart(n);
+  const BlockSchedule independent = Independent(n);
   Executor sequential;
   Executor three(3);
   Executor five(5);
-  for (const BlockSchedule* schedule : { &chain, &apart })
+  for (const BlockSchedule* schedule : { &chain, &independent })
   {
     for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &three, &five })
     {
       for (const int bad : { 0, 20 })
       {
         std::atomic<int> begun{ 0 };
-        std::atomic<int> underWay{ 0 };
+        std::atomic<int> running{ 0 };
         try
         {
           schedule->Run(
@@ -280,30 +278,30 @@ TEST(BlockSchedule, HandsOnWhatAVisitThrows)
             [&](int item)
             {
               ++begun;
-              ++underWay;
+              ++running;
               std::this_thread::sleep_for(std::chrono::microseconds(500));
-              --underWay;
+              --running;
               if (item == bad)
               {
                 throw std::runtime_error("bad " + std::to_string(item));
               }
             },
             Always);
-          FAIL() << "nothing is thrown";
+          FAIL() << "no exception";
         }
         catch (const std::runtime_error& error)
         {
           EXPECT_EQ(error.what(), "bad " + std::to_string(bad));
         }
-        EXPECT_EQ(underWay, 0) << "it has left before others were finished";
+        EXPECT_EQ(running, 0) << "all threads have finished";
         EXPECT_GT(begun, bad);
-        EXPECT_LT(begun, n) << "others went on";
+        EXPECT_LT(begun, n) << "others stop";
       }
     }
   }
 }
 
-TEST(BlockSchedule, IdleThreadsShareTheLoopsOfAVisit)
+TEST(BlockSchedule, RunsNestedLoopsOnIdleThreads)
 {
   Executor threads(3);
   std::set<std::thread::id> seen;
@@ -316,27 +314,25 @@ TEST(BlockSchedule, IdleThreadsShareTheLoopsOfAVisit)
   };
   ChainOf(3).Run(
     threads,
-    [&](int)
-    {
-      threads.For(
-        30, 1, [&](std::size_t, std::size_t) { HasReachedEnd([&] { return count() == 3; }); });
+    [&](int) {
+      threads.For(30, 1, [&](std::size_t, std::size_t) { WaitFor([&] { return count() == 3; }); });
     },
     Always);
   EXPECT_EQ(seen.size(), 3u);
 }
 
-TEST(BlockSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
+TEST(BlockSchedule, CompletesNestedLoopsAfterException)
 {
   Executor threads(3);
   std::atomic<bool> isInLoop{ false };
   std::atomic<int> done{ 0 };
-  EXPECT_THROW(Apart(2).Run(
+  EXPECT_THROW(Independent(2).Run(
                  threads,
                  [&](int item)
                  {
                    if (item == 0)
                    {
-                     HasReachedEnd([&] { return isInLoop.load(); });
+                     WaitFor([&] { return isInLoop.load(); });
                      throw std::runtime_error("bad");
                    }
                    threads.For(400, 1,
@@ -352,52 +348,52 @@ TEST(BlockSchedule, CompletesTheLoopsOfVisitsUnderWayWhenAnotherFails)
   EXPECT_EQ(done, 400);
 }
 
-TEST(BlockSchedule, CancelsAfterTheVisitAtWhichItIsRequested)
+TEST(BlockSchedule, CancelsAfterRequestedBlock)
 {
-  const BlockSchedule schedule = Apart(50);
+  const BlockSchedule schedule = Independent(50);
   Executor thread;
   for (const std::size_t last : { 1, 7, 49 })
   {
-    std::size_t visits = 0;
-    std::vector<std::size_t> asked;
+    std::size_t passes = 0;
+    std::vector<std::size_t> queries;
     EXPECT_FALSE(schedule.Run(
-      thread, [&visits](int) { ++visits; },
+      thread, [&passes](int) { ++passes; },
       [&](std::size_t done)
       {
-        asked.push_back(done);
+        queries.push_back(done);
         return done != last;
       }));
-    EXPECT_EQ(visits, last);
+    EXPECT_EQ(passes, last);
     std::vector<std::size_t> each(last);
     std::iota(each.begin(), each.end(), std::size_t(1));
-    EXPECT_EQ(asked, each) << "once after each visit, and not again";
+    EXPECT_EQ(queries, each) << "one query after each block";
   }
 }
 
-TEST(BlockSchedule, CancelsOnThreads)
+TEST(BlockSchedule, CancelsOnSeveralThreads)
 {
-  constexpr int n = 50000; // More than can be made before the request, on a machine however slow.
+  constexpr int n = 50000; // more than are completed before the request
   Executor threads(4);
   const std::thread::id caller = std::this_thread::get_id();
-  std::atomic<int> visits{ 0 };
-  std::atomic<int> underWay{ 0 };
-  int asked = 0;
-  EXPECT_FALSE(Apart(n).Run(
+  std::atomic<int> passes{ 0 };
+  std::atomic<int> running{ 0 };
+  int queries = 0;
+  EXPECT_FALSE(Independent(n).Run(
     threads,
     [&](int)
     {
-      ++visits;
-      ++underWay;
+      ++passes;
+      ++running;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      --underWay;
+      --running;
     },
     [&](std::size_t)
     {
       EXPECT_EQ(std::this_thread::get_id(), caller);
-      return ++asked < 3;
+      return ++queries < 3;
     }));
-  EXPECT_EQ(asked, 3) << "not asked again";
-  EXPECT_EQ(underWay, 0);
-  EXPECT_GE(visits, 3);
-  EXPECT_LT(visits, n);
+  EXPECT_EQ(queries, 3);
+  EXPECT_EQ(running, 0);
+  EXPECT_GE(passes, 3);
+  EXPECT_LT(passes, n);
 }

@@ -8,17 +8,17 @@ namespace
 {
 using Activity = Monitor::Activity;
 
-/** Says stop at the n-th question of an activity, and keeps what it has heard. */
+/** Cancels at the n-th query of an activity and records all queries. */
 class StopAt final : public Monitor
 {
 public:
   StopAt() = default;
-  StopAt(int level, Activity doing, int question) : Level(level), Doing(doing), Left(question) {}
+  StopAt(int level, Activity activity, int query) : Level(level), Doing(activity), Left(query) {}
 
   bool GoOn(const Status& status) override
   {
-    this->QuestionsAfter += this->HasStopped;
-    ++this->Questions[{ status.Level, status.Doing }];
+    this->QueriesAfterCancel += this->HasStopped;
+    ++this->Queries[{ status.Level, status.Doing }];
     EXPECT_GE(status.Fraction, 0.);
     EXPECT_LE(status.Fraction, 1.);
     this->Fractions.push_back(10. - status.Level + status.Fraction);
@@ -27,10 +27,10 @@ public:
     return !this->HasStopped;
   }
 
-  std::vector<double> Fractions; ///< Level by level, added to those before.
-  std::map<std::pair<int, Activity>, int> Questions;
+  std::vector<double> Fractions; ///< total progress: levels and fraction of the level
+  std::map<std::pair<int, Activity>, int> Queries;
   bool HasStopped = false;
-  int QuestionsAfter = 0;
+  int QueriesAfterCancel = 0;
 
 private:
   int Level = -5;
@@ -45,21 +45,20 @@ SurfaceOptions Options()
   return options;
 }
 
-/** A ball; the fine level shows another one and a bubble that the coarse one does not. */
+/** A ball. A second ball and a cavity exist on the fine level only. */
 LevelPair Scene()
 {
-  const auto known = [](double x, double y, double z)
+  const auto coarse = [](double x, double y, double z)
   { return Distance(x, y, z, 13, 18, 18) - 10.; };
   const auto fine = [&](double x, double y, double z)
   {
-    return std::min(std::max(known(x, y, z), 4. - Distance(x, y, z, 13, 18, 18)),
+    return std::min(std::max(coarse(x, y, z), 4. - Distance(x, y, z, 13, 18, 18)),
       Distance(x, y, z, 30, 18, 18) - 2.6);
   };
-  return LevelPair(36, fine, known);
+  return LevelPair(36, fine, coarse);
 }
 
-/** As vtkDeformableSurface does it, perhaps from a given surface and with a tolerance. @return how
- * the last level ended. */
+/** Run both levels, optionally with an input surface and a tolerance. */
 StopReason RunIn(const LevelPair& scene, TestEvolution& evolution, bool isGivenAndGraded)
 {
   if (isGivenAndGraded)
@@ -79,16 +78,13 @@ StopReason RunIn(const LevelPair& scene, TestEvolution& evolution, bool isGivenA
   return evolution.Run();
 }
 
-/** @param isTold that the last row tells of it */
-void ExpectValid(const TestEvolution& evolution, bool isTold)
+/** @param hasRow whether the last row describes the surface */
+void ExpectValid(const TestEvolution& evolution, bool hasRow)
 {
   const SurfaceResult surface = evolution.Result();
-  SurfaceMesh mesh;
-  mesh.Append(surface);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-  const std::vector<HistoryRow>& rows = evolution.History();
-  EXPECT_TRUE(!isTold || rows.back().EulerCharacteristic == mesh.CountEulerCharacteristic());
+  ExpectValidMesh(surface);
+  EXPECT_TRUE(!hasRow ||
+    evolution.History().back().EulerCharacteristic == MeshOf(surface).CountEulerCharacteristic());
 }
 }
 
@@ -96,7 +92,7 @@ class Cancelling : public ::testing::TestWithParam<bool>
 {
 };
 
-TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
+TEST_P(Cancelling, WorksInAllPhasesOfLevel)
 {
   const LevelPair scene = Scene();
   StopAt silent;
@@ -105,33 +101,33 @@ TEST_P(Cancelling, IsLookedAtInEveryPartOfALevel)
   ASSERT_EQ(evolution.Missed().Enclosed, 1);
   ASSERT_EQ(evolution.Missed().EnclosedCavities, 1);
   EXPECT_TRUE(GetParam() || std::is_sorted(silent.Fractions.begin(), silent.Fractions.end()))
-    << "progress never goes back";
-  EXPECT_GE((silent.Questions[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);
-  EXPECT_GE((silent.Questions[{ 0, Activity::Dividing }]), GetParam() ? 2 : 1);
-  EXPECT_GE((silent.Questions[{ 0, Activity::Recovering }]), 7)
+    << "monotonic progress";
+  EXPECT_GE((silent.Queries[{ 1, Activity::Starting }]), GetParam() ? 20 : 1);
+  EXPECT_GE((silent.Queries[{ 0, Activity::Dividing }]), GetParam() ? 2 : 1);
+  EXPECT_GE((silent.Queries[{ 0, Activity::Recovering }]), 7)
     << "objects and cavities, and the end";
-  EXPECT_GE((silent.Questions[{ 0, Activity::Iterating }]), 2 * evolution.Iterations() / 5)
-    << "a visit, and after the sweep";
-  EXPECT_GE((silent.Questions[{ 0, Activity::Regularising }]), 4) << "passes and polish";
+  EXPECT_GE((silent.Queries[{ 0, Activity::Iterating }]), 2 * evolution.Iterations() / 5)
+    << "a block and the end of the sweep";
+  EXPECT_GE((silent.Queries[{ 0, Activity::Regularising }]), 4) << "smoothing and optimization";
 
-  // Now stopped at each of these questions, but only at some of the many after iterations.
-  for (const auto& [where, count] : silent.Questions)
+  // Cancel at each query, but only at every fifth one of iterations.
+  for (const auto& [where, count] : silent.Queries)
   {
     const bool isIterating = where.second == Activity::Iterating;
-    for (int question = 1; question <= count; question += isIterating ? 5 : 1)
+    for (int query = 1; query <= count; query += isIterating ? 5 : 1)
     {
       SCOPED_TRACE("level " + std::to_string(where.first) + ", activity " +
-        std::to_string(static_cast<int>(where.second)) + ", question " + std::to_string(question));
-      StopAt monitor(where.first, where.second, question);
+        std::to_string(static_cast<int>(where.second)) + ", query " + std::to_string(query));
+      StopAt monitor(where.first, where.second, query);
       TestEvolution stopped(Options(), Threads, monitor);
       const StopReason reason = RunIn(scene, stopped, GetParam());
       ASSERT_TRUE(monitor.HasStopped);
       EXPECT_TRUE(stopped.IsStopped());
-      // Before anything of the fine level is done, the coarse one is at rest.
+      // At the last query of the coarse level it has converged.
       const bool isBetween =
-        where.first == 1 && where.second == Activity::Regularising && question == count;
+        where.first == 1 && where.second == Activity::Regularising && query == count;
       EXPECT_EQ(reason, isBetween ? StopReason::Converged : StopReason::Cancelled);
-      EXPECT_EQ(monitor.QuestionsAfter, 0);
+      EXPECT_EQ(monitor.QueriesAfterCancel, 0);
       EXPECT_TRUE(where.second == Activity::Starting || !stopped.Result().Points.empty());
       ExpectValid(stopped, isIterating);
     }

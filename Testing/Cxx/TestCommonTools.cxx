@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Small tools of the core that know no surface.
 #include "CommaLocale.h"
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/Executor.h"
@@ -30,7 +29,7 @@ TEST(DisjointSets, RootIsTheSmallestMember)
   }
 }
 
-TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
+TEST(DisjointSets, AreIndependentOfThreadCount)
 {
   constexpr int n = 3000;
   std::mt19937 random(7);
@@ -63,7 +62,7 @@ TEST(DisjointSets, AreTheSameWhoeverJoinsThemAtOnce)
   }
 }
 
-TEST(Lanes, ComputeWhatOneFloatDoes)
+TEST(Lanes, EqualScalarArithmetic)
 {
   const auto laneOf = [](const Lanes& lanes, int i)
   {
@@ -102,18 +101,18 @@ TEST(Lanes, ComputeWhatOneFloatDoes)
   }
 }
 
-TEST(Join, WritesNumbersAsEveryoneReadsThem)
+TEST(Join, IgnoresLocale)
 {
   const CommaLocale locale;
   std::ostringstream local;
   local << 1234.5;
-  ASSERT_EQ(local.str(), "1.234,5") << "the locale is not what it should be";
+  ASSERT_EQ(local.str(), "1.234,5") << "unexpected locale";
   EXPECT_EQ(Join("level ", 1000, ", ", std::int64_t(1234567), " voxels of ", 0.5f),
     "level 1000, 1234567 voxels of 0.5");
   EXPECT_EQ(ErrorMessageOf([] { ThrowInvalidArgument("it is ", 1234.5, "."); }), "it is 1234.5.");
 }
 
-TEST(VoxelNumbers, ComeBackToTheirPlaces)
+TEST(VoxelNumbers, InvertIndices)
 {
   for (const std::array<int, 3>& size : { std::array<int, 3>{ 1300, 1300, 1300 },
          { 2048, 2048, 2048 }, { 3, 5, 7 }, { 65536, 65536, 2 }, { 1, 1, 70000 } })
@@ -123,16 +122,16 @@ TEST(VoxelNumbers, ComeBackToTheirPlaces)
     const std::array<int, 3> last = { size[0] - 1, size[1] - 1, size[2] - 1 };
     EXPECT_EQ(numbers.Of(last[0], last[1], last[2]), numbers.Count() - 1);
     const std::array<int, 3> middle = { size[0] / 2, size[1] / 3, last[2] };
-    for (const std::array<int, 3>& place : { last, middle })
+    for (const std::array<int, 3>& ijk : { last, middle })
     {
-      EXPECT_EQ(numbers.IjkOf(numbers.Of(place[0], place[1], place[2])), place);
+      EXPECT_EQ(numbers.IjkOf(numbers.Of(ijk[0], ijk[1], ijk[2])), ijk);
     }
   }
 }
 
 namespace
 {
-/** Memory that this process takes, in MB; 0 where it cannot be told. */
+/** Return the resident memory of this process in MB; 0 if unknown. */
 double ResidentMegabytes()
 {
   long all = 0;
@@ -142,12 +141,12 @@ double ResidentMegabytes()
 }
 }
 
-TEST(FreeMemory, IsGivenBackThoughABlockBehindItIsInUse)
+TEST(FreeMemory, IsReleasedBelowBlockInUse)
 {
 #if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "another allocator";
 #endif
-  // 64 MB in blocks that are too small to be given back one by one.
+  // 64 MB in blocks too small to be released one by one.
   constexpr std::size_t size = 16 * 1024;
   std::vector<std::vector<char>> blocks(4096);
   for (std::vector<char>& block : blocks)
@@ -156,7 +155,7 @@ TEST(FreeMemory, IsGivenBackThoughABlockBehindItIsInUse)
   }
   const std::vector<char> last(size, 'x');
   const double before = ResidentMegabytes();
-  ASSERT_GT(before, 64.) << "cannot be told here";
+  ASSERT_GT(before, 64.) << "the resident memory is unknown";
   blocks.clear();
   GiveBackFreeMemory();
   EXPECT_LT(ResidentMegabytes(), before - 50.);

@@ -19,10 +19,10 @@ struct Facing : Stage
     return surface;
   }
 
-  static constexpr int Left = 0;      ///< The tip of the left one.
-  static constexpr int Right = 6 + 1; ///< The tip that it faces.
+  static constexpr int Left = 0;      ///< tip of the left octahedron
+  static constexpr int Right = 6 + 1; ///< facing tip of the right octahedron
 
-  /** Both sides of the pair, as an examination lists it. */
+  /** Return the pair as the proximity test lists it. */
   std::vector<Proximity::ClosePair> Pairs() const
   {
     const float squared =
@@ -32,7 +32,7 @@ struct Facing : Stage
 };
 }
 
-TEST(Contact, StopsWhatComesNear)
+TEST(Contact, StopsApproachingVertices)
 {
   Facing stage(1.2);
   stage.State.Velocity[Facing::Left] = Vector(0.2f, 0.1f, 0);
@@ -40,10 +40,10 @@ TEST(Contact, StopsWhatComesNear)
   stage.Push(stage.Pairs());
   EXPECT_NEAR(stage.State.Velocity[Facing::Left].X, 0, 1e-5);
   EXPECT_NEAR(stage.State.Velocity[Facing::Right].X, 0, 1e-5);
-  EXPECT_GT(stage.State.Velocity[Facing::Left].Y, 0.01) << "sliding by is allowed";
+  EXPECT_GT(stage.State.Velocity[Facing::Left].Y, 0.01) << "tangential motion is allowed";
 }
 
-TEST(Contact, AtAFrozenVertexStopsAltogether)
+TEST(Contact, StopsAtFrozenVertex)
 {
   Facing stage(1.2);
   stage.State.Velocity[Facing::Left] = Vector(0.2f, 0, 0);
@@ -54,14 +54,14 @@ TEST(Contact, AtAFrozenVertexStopsAltogether)
   EXPECT_EQ(Length(stage.State.Velocity[Facing::Right]), 0);
 }
 
-TEST(Contact, LetsGoWhatDepartsAndWhatIsFar)
+TEST(Contact, IgnoresDepartingAndDistantVertices)
 {
   Facing departing(1.2);
   departing.State.Velocity[Facing::Left] = Vector(-0.2f, 0, 0);
   departing.Push(departing.Pairs());
   EXPECT_LT(departing.State.Velocity[Facing::Left].X, -0.015);
   EXPECT_NEAR(departing.State.Velocity[Facing::Right].X, 0, 1e-6);
-  // Pairs are found a little beyond lambda delta = 1.443.
+  // The proximity test lists pairs slightly beyond lambda delta = 1.443.
   Facing far(1.5);
   far.State.Velocity[Facing::Left] = Vector(0.2f, 0, 0);
   far.Push(far.Pairs());
@@ -69,24 +69,23 @@ TEST(Contact, LetsGoWhatDepartsAndWhatIsFar)
   EXPECT_NEAR(far.State.Velocity[Facing::Right].X, 0, 1e-6);
 }
 
-TEST(Contact, PushesApartWhatIsNearerThanDelta)
+TEST(Contact, SeparatesVerticesCloserThanDelta)
 {
   Facing stage(0.6);
   const double step = stage.Push(stage.Pairs());
-  const Vector way =
+  const Vector gap =
     stage.State.Mesh.Position[Facing::Right] - stage.State.Mesh.Position[Facing::Left];
-  // Each by a quarter of what is missing.
-  EXPECT_NEAR(Length(way), 0.6 + 2 * 0.25 * 0.4, 1e-4) << "step " << step;
+  // Each vertex moves by a quarter of the missing distance.
+  EXPECT_NEAR(Length(gap), 0.6 + 2 * 0.25 * 0.4, 1e-4) << "step " << step;
 }
 
-TEST(Contact, StopsSmoothingToo)
+TEST(Contact, StopsSmoothing)
 {
-  // The tip of the left one is drawn back by its neighbours, the right one is held by its own.
   for (const bool contact : { false, true })
   {
     Facing stage(1.2);
     stage.Volume = MakeVolume(33, [](double x, double, double) { return 20. - x; });
-    stage.Options.IsoValue = 0; // Both sides are led to x = 20, far to the right.
+    stage.Options.IsoValue = 0; // isosurface x = 20, far to the right
     stage.UpdateShape();
     stage.State.Active[Facing::Right] = 0;
     stage.All.erase(stage.All.begin() + Facing::Right);
@@ -104,15 +103,14 @@ TEST(Contact, StopsSmoothingToo)
 
 namespace
 {
-/** A torus of small hole, or thin waist, through the place; `value` is what the image says there.
- */
+/** Return the approaching speed of opposite vertices of a small hole or waist. */
 float SpeedAcross(bool hole, double value)
 {
-  // Two opposite vertices of a waist of four; inward normals make a hole of it.
+  // Opposite vertices of a cycle of four. Inverted orientation turns the waist into a hole.
   const IndexedSurface waist = MakeTorus({ 16, 16, 16 }, 6, 0.7, 24, 4);
   Stage stage(hole ? InsideOut(waist) : waist, 1);
   stage.Volume = MakeVolume(33, [value](double, double, double) { return value; });
-  const int v = 0; // Outermost of the first ring of four; 2 is the innermost.
+  const int v = 0; // outermost vertex of the first cycle; 2 is the innermost
   const int w = 2;
   const Vector across = stage.State.Mesh.Position[w] - stage.State.Mesh.Position[v];
   const float squared = SquaredLength(across);
@@ -123,9 +121,9 @@ float SpeedAcross(bool hole, double value)
 }
 }
 
-TEST(Contact, LetsHolesAndWaistsCloseWhereTheImageWantsIt)
+TEST(Contact, LetsHolesCloseInObjectAndWaistsInBackground)
 {
-  // Two vertices with a common neighbour: short of the cycle of three that a cut needs.
+  // The vertices have a common neighbour. A cut needs a cycle of three.
   EXPECT_GT(SpeedAcross(true, 1.), 0.015) << "a hole in the object";
   EXPECT_NEAR(SpeedAcross(true, -1.), 0, 1e-4) << "a hole in the background";
   EXPECT_GT(SpeedAcross(false, -1.), 0.015) << "a waist in the background";
@@ -134,7 +132,7 @@ TEST(Contact, LetsHolesAndWaistsCloseWhereTheImageWantsIt)
 
 namespace
 {
-/** A sphere whose vertices the tests move by hand, which become motionless when they do not. */
+/** Sphere with one vertex that the tests move. */
 class Freezing : public ::testing::Test
 {
 protected:
@@ -153,8 +151,8 @@ protected:
     return static_cast<int>(std::count_if(active.begin(), active.end(), [](int x) { return x; }));
   }
 
-  /** An iteration in which one vertex is moved by some way along a direction. */
-  void Iterate(const Vector& way = Vector())
+  /** Run an iteration in which the vertex Mover moves. */
+  void Iterate(const Vector& displacement = Vector())
   {
     SurfaceState& s = this->Actors.State;
     std::vector<int> active;
@@ -166,7 +164,7 @@ protected:
         s.PreviousPosition[v] = s.Mesh.Position[v];
       }
     }
-    s.MoveTo(Mover, s.Mesh.Position[Mover] + way);
+    s.MoveTo(Mover, s.Mesh.Position[Mover] + displacement);
     this->Motion.Freeze(s, active, this->Actors.All);
   }
 
@@ -178,7 +176,7 @@ protected:
 };
 }
 
-TEST_F(Freezing, TakesThreeIterationsOfRest)
+TEST_F(Freezing, FreezesAfterThreeMotionlessIterations)
 {
   this->Actors.State.Velocity[7] = Vector(0.1f, 0, 0);
   for (int i = 0; i < 2; ++i)
@@ -188,10 +186,10 @@ TEST_F(Freezing, TakesThreeIterationsOfRest)
   }
   this->Iterate();
   EXPECT_EQ(this->CountActive(), 0);
-  EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "what is motionless has no velocity";
+  EXPECT_EQ(Length(this->Actors.State.Velocity[7]), 0) << "motionless vertices have no velocity";
 }
 
-TEST_F(Freezing, LeavesWhatMovesAndItsNeighboursActive)
+TEST_F(Freezing, KeepsMovingVertexAndNeighboursActive)
 {
   for (int i = 0; i < 10; ++i)
   {
@@ -218,13 +216,13 @@ TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
   for (int i = 0; i < 2; ++i)
   {
     this->Iterate();
-    EXPECT_TRUE(this->IsActive(this->Neighbour)) << "its patience starts afresh";
+    EXPECT_TRUE(this->IsActive(this->Neighbour)) << "the count of motionless iterations restarts";
   }
 }
 
-TEST_F(Freezing, SlowMotionIsMotion)
+TEST_F(Freezing, KeepsSlowlyMovingVertexActive)
 {
-  // A hundredth of delta is not visible at once, but it adds up.
+  // Steps of delta / 100 accumulate.
   for (int i = 0; i < 20; ++i)
   {
     this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);

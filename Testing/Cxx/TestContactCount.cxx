@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Which pairs count as contacts that remain, and which vertices as held by them.
 #include "Core/Surface/RemainingContacts.h"
 #include "RemeshTestTools.h"
 
@@ -9,7 +8,7 @@ using namespace volumic;
 
 namespace
 {
-/** Two balls of radius 4 about (16, 16, 16), whose nearest vertices are a gap apart, along x. */
+/** Two balls of radius 4 beside (16, 16, 16) along x, with a gap between their nearest vertices. */
 struct TwoBalls : Bench
 {
   explicit TwoBalls(double gap) : TwoBalls(Surface(gap)) {}
@@ -20,7 +19,6 @@ struct TwoBalls : Bench
 
   static IndexedSurface Surface(double gap)
   {
-    // Mirror images of each other: the first vertices face each other.
     IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 4, 1.6);
     const auto right = std::max_element(ball.Points.begin(), ball.Points.end(),
       [](const Point& a, const Point& b) { return a[0] < b[0]; });
@@ -41,19 +39,18 @@ struct TwoBalls : Bench
   RemainingContacts Find(double value)
   {
     const TestVolume volume = MakeVolume(33,
-      [value](double x, double, double)
-      { return value + (x < 3 ? 1. : 0.); }); // With a slope of 1 somewhere.
+      [value](double x, double, double) { return value + (x < 3 ? 1. : 0.); }); // slope 1 at x = 3
     const Field field(volume.Image, SurfaceOptions(), this->Threads);
     return FindRemainingContacts(this->State, field, this->Threads);
   }
 
-  int Second; ///< First vertex of the second ball.
+  int Second; ///< first vertex of the second ball
 };
 }
 
-TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
+TEST(ContactCount, CountsFacingVerticesOffIsosurface)
 {
-  // Up to 1.15 lambda delta = 1.66; the floor of the slope is .15, a tenth of it .015.
+  // Maximum distance 1.15 lambda delta = 1.66; minimum value .015, a tenth of the minimum slope.
   for (const double gap : { 1.5, 1.9 })
   {
     for (const double value : { -0.5, -0.01 })
@@ -65,7 +62,7 @@ TEST(ContactCount, AVertexIsHeldWhereItHasNotArrivedAndFacesAnother)
       EXPECT_LT(held, 12);
     }
   }
-  // One behind the other, both outward: nothing holds them.
+  // Nested surfaces with outward normals do not face each other.
   IndexedSurface nested = DividedIcosahedron({ 16, 16, 16 }, 6, 1.6);
   AddSurface(nested, DividedIcosahedron({ 16, 16, 16 }, 7.3, 1.6));
   TwoBalls bench(nested);

@@ -18,7 +18,7 @@ std::string ErrorOf(double length)
 }
 }
 
-TEST(EdgeLengthPlan, IsWhatIsPreferredWhereThatGivesTheLength)
+TEST(EdgeLengthPlan, UsesPreferencesWherePossible)
 {
   for (int level = 0; level < 4; ++level)
   {
@@ -30,7 +30,7 @@ TEST(EdgeLengthPlan, IsWhatIsPreferredWhereThatGivesTheLength)
   }
 }
 
-TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
+TEST(EdgeLengthPlan, CoversAllLengthsBetweenLevels)
 {
   for (double length = 0.6 * Unit; length < 10. * Unit; length *= 1.02)
   {
@@ -48,7 +48,7 @@ TEST(EdgeLengthPlan, LeavesNoGapBetweenTheLevels)
   }
 }
 
-TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
+TEST(EdgeLengthPlan, ReportsPossibleLengths)
 {
   EXPECT_TRUE(Has(
     ErrorOf(0.2), "Edge Length is 0.2, but edges of this image can have mean lengths of 0.566"));
@@ -59,7 +59,7 @@ TEST(EdgeLengthPlan, NamesTheLengthsThatArePossible)
   EXPECT_TRUE(Has(ErrorOf(INFINITY), "it must be 0 (automatic) or a length"));
 }
 
-TEST(EdgeLengthPlan, TakesTheLevelOfAPyramidWhoseRatioIsNearest)
+TEST(EdgeLengthPlan, SelectsNearestLevelOfPyramid)
 {
   const std::vector<double> units = { 1., std::sqrt(3.), 3. };
   EdgeLengthPreferences preferences;
@@ -69,6 +69,6 @@ TEST(EdgeLengthPlan, TakesTheLevelOfAPyramidWhoseRatioIsNearest)
   plan = PlanEdgeLength(MeanEdgeInDelta * 0.5, units, preferences);
   EXPECT_EQ(plan.FinestLevel, -1);
   EXPECT_NEAR(plan.SamplingRatio / plan.ReductionFactor, 0.5, 1e-9);
-  // Levels 0 and 1 leave 1 to 1.2 out.
+  // Ratios from 1 to 1.2 are not covered by levels 0 and 1.
   EXPECT_THROW(PlanEdgeLength(MeanEdgeInDelta * 1.1, units, preferences), std::invalid_argument);
 }

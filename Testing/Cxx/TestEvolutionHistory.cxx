@@ -5,8 +5,6 @@
 #include "EvolutionTestTools.h"
 
 #include <chrono>
-#include <cstddef>
-#include <numeric>
 
 using namespace volumic;
 
@@ -14,14 +12,14 @@ namespace
 {
 double Known(double x, double y, double z)
 {
-  // Two balls, so that there is a cut, and a ring whose hole opens.
+  // Two balls that need a cut, and a torus that needs a merge.
   const double first = Distance(x, y, z, 12, 12, 20) - 6.5;
   const double second = Distance(x, y, z, 12, 29, 20) - 6.5;
   const double q = Distance(x, y, 0, 28, 20, 0) - 6.;
   return std::min({ first, second, std::sqrt(q * q + (z - 20) * (z - 20)) - 2.6 });
 }
 
-LevelPair SceneWithLostBalls()
+LevelPair SceneWithMissedBalls()
 {
   const auto fine = [](double x, double y, double z)
   {
@@ -43,10 +41,9 @@ std::size_t RunBothLevels(TestEvolution& evolution, const LevelPair& scene)
 }
 }
 
-TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
+TEST(EvolutionHistory, MostVerticesConvergeImmediatelyAfterDivision)
 {
-  // The finer field has been descended before it, so that most vertices rest at once, whatever the
-  // coarse image has blurred; where other forces drive, nobody knows where to.
+  // The divided surface is moved along the finer field first, unless other forces act.
   const auto ball = [](double r)
   { return [r](double x, double y, double z) { return Distance(x, y, z, 16, 16, 16) - r; }; };
   for (const bool alone : { true, false })
@@ -64,14 +61,14 @@ TEST(EvolutionHistory, NewVerticesOnASmoothObjectHardlyMoveAfterADivision)
   }
 }
 
-TEST(EvolutionHistory, LastRowDescribesTheSurfaceOfTheLevel)
+TEST(EvolutionHistory, LastRowDescribesSurfaceOfLevel)
 {
   TestEvolution evolution(IsoHalf(), Threads, Silent);
-  std::size_t last = 0; // Vertices after the last iteration.
+  std::size_t last = 0; // vertices after the last iteration
   evolution.AfterSweep = [&] { last = evolution.Result().Points.size(); };
-  RunBothLevels(evolution, SceneWithLostBalls());
+  RunBothLevels(evolution, SceneWithMissedBalls());
   const SurfaceResult surface = evolution.Result();
-  ASSERT_NE(last, surface.Points.size()) << "otherwise this test would show nothing";
+  ASSERT_NE(last, surface.Points.size()) << "otherwise the test is meaningless";
   const SurfaceFeatures features = ComputeFeatures(surface);
   const HistoryRow& row = evolution.History().back();
   EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
@@ -79,7 +76,7 @@ TEST(EvolutionHistory, LastRowDescribesTheSurfaceOfTheLevel)
   EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
 }
 
-TEST(EvolutionHistory, CountsWhatHappensToAComponentThatIsDeleted)
+TEST(EvolutionHistory, CountsDeletedComponents)
 {
   SurfaceState state;
   state.Mesh.Append(MakeTorus({ 0, 0, 0 }, 8, 3, 24, 10));
@@ -94,9 +91,9 @@ TEST(EvolutionHistory, CountsWhatHappensToAComponentThatIsDeleted)
   EXPECT_EQ(state.EulerCharacteristic, 0);
 }
 
-TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
+TEST(EvolutionHistory, SecondsAddUpToElapsedTime)
 {
-  const LevelPair scene = SceneWithLostBalls();
+  const LevelPair scene = SceneWithMissedBalls();
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   using std::chrono::steady_clock;
   const auto start = steady_clock::now() - std::chrono::seconds(1000);
@@ -119,8 +116,8 @@ TEST(EvolutionHistory, SecondsOfTheRowsAddUpToThoseOfTheLevels)
     sums[row.Level] += row.Seconds;
   }
   EXPECT_LE(sums[1], coarse);
-  EXPECT_GE(sums[0] + sums[1], most) << "no second is lost";
+  EXPECT_GE(sums[0] + sums[1], most) << "no time is missing";
   EXPECT_LE(sums[0] + sums[1], all);
   EXPECT_GE(evolution.History().front().Seconds, 1000.);
-  EXPECT_LT(evolution.History()[1].Seconds, 100.) << "only the first has what came before";
+  EXPECT_LT(evolution.History()[1].Seconds, 100.) << "only the first row contains the time before";
 }

@@ -9,7 +9,7 @@
 
 using namespace volumic;
 
-TEST(Executor, CoversEveryItemOnce)
+TEST(Executor, CoversEachItemOnce)
 {
   Executor threads(4);
   ASSERT_EQ(threads.NumberOfThreads(), 4);
@@ -34,7 +34,7 @@ TEST(Executor, CoversEveryItemOnce)
   }
 }
 
-TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
+TEST(Executor, UsesRequestedNumberOfThreads)
 {
   for (const std::size_t number : { 1, 3 })
   {
@@ -49,7 +49,7 @@ TEST(Executor, UsesAsManyThreadsAsRequestedAndNoMore)
     };
     // The first items wait for all threads.
     threads.For(
-      300, 1, [&](std::size_t, std::size_t) { HasReachedEnd([&] { return count() >= number; }); });
+      300, 1, [&](std::size_t, std::size_t) { WaitFor([&] { return count() >= number; }); });
     EXPECT_EQ(seen.size(), number);
   }
 }
@@ -83,7 +83,7 @@ TEST(Executor, RethrowsExceptionsAndContinues)
   EXPECT_EQ(done, 100);
 }
 
-TEST(Executor, CompletesLoopsWithinBodiesWhenAnotherBodyFails)
+TEST(Executor, CompletesNestedLoopsAfterException)
 {
   Executor threads(3);
   std::atomic<int> incomplete{ 0 };
@@ -129,22 +129,22 @@ TEST(CancellableExecutor, CancelsOnTheCallingThread)
   {
     Executor threads(number);
     const std::thread::id caller = std::this_thread::get_id();
-    int asked = 0;
-    CancellableExecutor asking(threads,
+    int queries = 0;
+    CancellableExecutor cancellable(threads,
       [&]
       {
         EXPECT_EQ(std::this_thread::get_id(), caller);
-        return ++asked < 3;
+        return ++queries < 3;
       });
-    constexpr int n = 100000; // More than can be done in a test.
+    constexpr int n = 100000; // more than a test can complete
     std::atomic<int> done{ 0 };
     const auto body = [&](std::size_t begin, std::size_t end)
     {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       done += int(end - begin);
     };
-    EXPECT_THROW(asking.For(n, 1, body), OperationCancelled);
-    EXPECT_EQ(asked, 3);
+    EXPECT_THROW(cancellable.For(n, 1, body), OperationCancelled);
+    EXPECT_EQ(queries, 3);
     EXPECT_GE(done, 3);
     EXPECT_LT(done, n);
   }

@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Voxels that lie far from zero beside what they differ by, such as times, counters and addresses:
-// single precision has steps of 64 at 10^9.
+// Voxels far from zero with small differences. At 10^9 single precision has steps of 64.
 #include "SurfaceTestTools.h"
 
 using namespace volumic;
@@ -11,11 +10,12 @@ namespace
 {
 constexpr double Far = 1e9;
 
-/** BallImage(40, 40, 40) in whole steps from `base` to `base` + 50. */
+/** Return BallImage(40, 40, 40) with integers from `base` to `base` + 50. */
 vtkSmartPointer<vtkImageData> BallAt(double base, int scalarType)
 {
   const auto ball = BallImage(40, 40, 40);
-  return ImageOf({ 40, 40, 40 },
+  return ImageOf(
+    { 40, 40, 40 },
     [&](int i, int j, int k)
     { return base + std::round(0.5 * ball->GetScalarComponentAsDouble(i, j, k, 0)); },
     scalarType);
@@ -33,15 +33,15 @@ vtkSmartPointer<vtkDeformableSurface> SurfaceAbove(
 class FarFromZero : public ::testing::TestWithParam<int>
 {
 protected:
-  /** The surface of the far ball must be that of the same one near zero. */
+  /** Expect the same surface as for voxels near zero. */
   static void ExpectSame(double tolerance, const Choice& set)
   {
     const auto nearby = SurfaceAbove(0.0, VTK_SHORT, set);
     const auto far = SurfaceAbove(Far, GetParam(), set);
     ASSERT_GT(far->GetOutput()->GetNumberOfPoints(), 100);
     EXPECT_EQ(StopReason(far->GetOutput()), "converged");
-    EXPECT_NEAR(FieldOf(far->GetOutput(), "Volume") / FieldOf(nearby->GetOutput(), "Volume"), 1.0,
-      tolerance);
+    EXPECT_NEAR(
+      FieldOf(far->GetOutput(), "Volume") / FieldOf(nearby->GetOutput(), "Volume"), 1.0, tolerance);
     if (tolerance == 0.0)
     {
       EXPECT_TRUE(AreSameSurfaces(far->GetOutput(), nearby->GetOutput()));
@@ -60,7 +60,7 @@ protected:
 };
 }
 
-TEST_P(FarFromZero, APyramidKeepsTheDifferences)
+TEST_P(FarFromZero, PyramidPreservesDifferences)
 {
   const auto pyramid = PyramidOf(BallAt(Far, GetParam()));
   const auto nearby = PyramidOf(BallAt(0.0, VTK_SHORT));
@@ -77,23 +77,22 @@ TEST_P(FarFromZero, APyramidKeepsTheDifferences)
   }
 }
 
-TEST_P(FarFromZero, OneLevelGivesTheSameBits)
+TEST_P(FarFromZero, SingleLevelIsBitIdentical)
 {
   ExpectSame(0.0, OnOneLevel);
 }
 
-TEST_P(FarFromZero, ThroughThePyramid)
+TEST_P(FarFromZero, MultipleLevelsAgree)
 {
   ExpectSame(1e-3, [](vtkDeformableSurface*) {});
 }
 
-INSTANTIATE_TEST_SUITE_P(Types, FarFromZero,
-  ::testing::Values(VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_DOUBLE));
+INSTANTIATE_TEST_SUITE_P(
+  Types, FarFromZero, ::testing::Values(VTK_UNSIGNED_INT, VTK_LONG_LONG, VTK_DOUBLE));
 
-TEST(FarFromZeroFloat, VoxelsAreNotRoundedAnyFurther)
+TEST(FarFromZeroFloat, InterpolatesBetweenRoundedVoxels)
 {
-  // Steps of 1/16 at 10^6: the voxels hold the ball; what is interpolated between them must not be
-  // rounded to such steps.
+  // At 10^6 float has steps of 1/16. Interpolated values must not be rounded to these.
   const auto filter =
     SurfaceAbove(1e6, VTK_FLOAT, [](vtkDeformableSurface* f) { f->SetCoarsestLevel(0); });
   vtkDataArray* residual = filter->GetOutput()->GetPointData()->GetArray("Residual");
@@ -107,7 +106,7 @@ TEST(FarFromZeroFloat, VoxelsAreNotRoundedAnyFurther)
   EXPECT_GT(between, residual->GetNumberOfTuples() / 2);
 }
 
-TEST(FarFromZeroFloat, LevelsOfOtherIntegersStayFloat)
+TEST(FarFromZeroFloat, SmallIntegersGiveFloatLevels)
 {
   for (const double base : { 0.0, -1024.0, 5000.0 })
   {

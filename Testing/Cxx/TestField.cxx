@@ -20,8 +20,8 @@ SurfaceOptions WithIso(double iso)
 
 TEST(Field, IsTrilinearBetweenVoxels)
 {
-  const TestVolume volume = MakeVolume(8, [](double x, double y, double z)
-    { return 1 + x + 2 * y + 3 * z + x * y * z; });
+  const TestVolume volume =
+    MakeVolume(8, [](double x, double y, double z) { return 1 + x + 2 * y + 3 * z + x * y * z; });
   const Field field(volume.Image, WithIso(0.), Threads);
   const Vector p(2.25f, 3.5f, 4.75f);
   const double expected = 1 + 2.25 + 7 + 14.25 + 2.25 * 3.5 * 4.75;
@@ -31,10 +31,9 @@ TEST(Field, IsTrilinearBetweenVoxels)
 
 TEST(Field, GradientInterpolatesCentralDifferences)
 {
-  // Of x^2 the central difference is 2 x at every voxel, so its interpolation is 2 x everywhere;
-  // the derivative of the interpolant would be constant within a cell.
-  const TestVolume volume = MakeVolume(10, [](double x, double y, double z)
-    { return x * x + 2 * y * y - z * z; });
+  // The interpolated central difference of x^2 is 2 x; the derivative of the interpolant is not.
+  const TestVolume volume =
+    MakeVolume(10, [](double x, double y, double z) { return x * x + 2 * y * y - z * z; });
   const Field field(volume.Image, WithIso(0.), Threads);
   const Vector g = field.At(Vector(4.3f, 5.6f, 3.2f)).Gradient;
   EXPECT_NEAR(g.X, 8.6, 1e-4);
@@ -42,7 +41,7 @@ TEST(Field, GradientInterpolatesCentralDifferences)
   EXPECT_NEAR(g.Z, -6.4, 1e-4);
 }
 
-TEST(Field, GradientIsPerLengthOfTheWorkspace)
+TEST(Field, GradientIsInComputationalSpace)
 {
   TestVolume volume = MakeVolume(8, [](double x, double y, double z) { return x + y + z; });
   volume.Image.Step = { 2., 5., 4. };
@@ -54,12 +53,12 @@ TEST(Field, GradientIsPerLengthOfTheWorkspace)
   EXPECT_NEAR(sample.Gradient.Z, 0.25, 1e-5);
 }
 
-TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
+TEST(Field, ReachesBackgroundWithinOneVoxelOfBorder)
 {
   for (const bool bright : { true, false })
   {
-    const TestVolume volume = MakeVolume(8, [bright](double, double, double)
-      { return bright ? 10. : 0.; });
+    const TestVolume volume =
+      MakeVolume(8, [bright](double, double, double) { return bright ? 10. : 0.; });
     SurfaceOptions options = WithIso(4.);
     options.ObjectIsBright = bright;
     const Field field(volume.Image, options, Threads);
@@ -72,9 +71,9 @@ TEST(Field, FallsToTheBackgroundWithinAVoxelOfTheBorder)
   }
 }
 
-TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
+TEST(Field, ReplicatesWithinMarginOfTwoUnits)
 {
-  // Along z a voxel is longer than the margin.
+  // A voxel is longer than the margin along z.
   for (const bool bright : { true, false })
   {
     TestVolume volume = MakeVolume(8, [](double x, double, double) { return x; });
@@ -84,9 +83,9 @@ TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
     options.ObjectIsBright = bright;
     options.BorderValue = Border::Replicate;
     const Field field(volume.Image, options, Threads);
-    const float x = bright ? 9.f : 1.5f; // Within the object.
+    const float x = bright ? 9.f : 1.5f; // in the object
     EXPECT_GT(field.ValueAt(Vector(x, -3.f, 10)), 0);
-    EXPECT_LT(field.ValueAt(Vector(x, -3.8f, 10)), 0) << "half of the ramp is too much";
+    EXPECT_LT(field.ValueAt(Vector(x, -3.8f, 10)), 0) << "in the ramp";
     EXPECT_LT(field.ValueAt(Vector(x, 15.f, 10)), field.ValueAt(Vector(x, 14.f, 10)));
     EXPECT_GT(field.ValueAt(Vector(x, 5, 39.9f)), 0);
     EXPECT_LT(field.ValueAt(Vector(x, 5, 40.8f)), 0);
@@ -95,17 +94,15 @@ TEST(Field, ReplicatesWithinAMarginOfTwoUnitsOnly)
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(x, 15.1f, 10)), far);
     EXPECT_FLOAT_EQ(field.At(Vector(x, 15.1f, 10)).Value, far);
     EXPECT_FLOAT_EQ(field.At(Vector(x, 15.1f, 10)).Gradient.Y, 0);
-    // Of the ramp: what it falls by, over its length.
     const float fall = far - field.ValueAt(Vector(x, 10, 10));
     EXPECT_NEAR(field.At(Vector(x, 14.2f, 10)).Gradient.Y, fall / 1.5f, 1e-4f);
   }
 }
 
-TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
+TEST(Field, IsMinimalOutside)
 {
-  // The object lies as far above the iso-value as the background below it, or less, or more.
-  const TestVolume volume = MakeVolume(8, [](double x, double, double)
-    { return x < 4 ? 0. : 100.; });
+  const TestVolume volume =
+    MakeVolume(8, [](double x, double, double) { return x < 4 ? 0. : 100.; });
   for (const double iso : { 99., 50., 1. })
   {
     const Field field(volume.Image, WithIso(iso), Threads);
@@ -116,12 +113,13 @@ TEST(Field, IsAtLeastAsMuchBackgroundOutsideAsAnywhereInside)
   }
 }
 
-TEST(Field, KnowsHowSteepTheSurfaceIsWhereItLies)
+TEST(Field, MeasuresSlopeAtIsosurface)
 {
-  // What is steeper, or flatter, elsewhere does not count; lengths are those of the workspace.
+  // Slopes away from the isosurface do not count. Lengths are in computational space.
   for (int axis = 0; axis < 2; ++axis)
   {
-    TestVolume volume = MakeVolume(16, [axis](double x, double y, double)
+    TestVolume volume = MakeVolume(16,
+      [axis](double x, double y, double)
       {
         const double t = axis == 0 ? x : y;
         return t < 8 ? 5 * t : (t < 12 ? 40. : 1000 * t);

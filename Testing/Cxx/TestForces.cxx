@@ -1,28 +1,26 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// What forces act on a vertex, and how strong they are: seen in the velocities after one step of
-// rest.
+// Forces, measured as velocities after one step from rest.
 #include "DynamicsTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-/** The speed of a vertex on which the force acts in a step, in delta per unit of time. */
+/** Return the speed after a step under a force, in delta per unit of time. */
 double SpeedUnder(double force, const SurfaceOptions& options, double step)
 {
   return force * step / (1 + options.Friction * step);
 }
 }
 
-TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
+TEST(Forces, IsopotentialSaturatesAtThreeQuartersOfDelta)
 {
-  // However much the image differs between object and background.
   for (const double contrast : { 1., 1e4 })
   {
-    for (const double way : { 0.3, -0.3, 0.6, 3. })
+    for (const double distance : { 0.3, -0.3, 0.6, 3. })
     {
-      Stage stage(8 + way);
+      Stage stage(8 + distance);
       for (float& x : stage.Volume.Values)
       {
         x = static_cast<float>((x - 0.5) * contrast);
@@ -31,28 +29,29 @@ TEST(Forces, IsopotentialGrowsToItsBoundOverThreeQuartersOfDelta)
       stage.Options.TensionWeight = 0;
       stage.Options.ElasticityWeight = 0;
       const double step = stage.Push();
-      const double force = -std::min(way / 0.75, 1.);
-      EXPECT_NEAR(stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.02) << way;
+      const double force = -std::min(distance / 0.75, 1.);
+      EXPECT_NEAR(stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.02)
+        << distance;
     }
   }
 }
 
-TEST(Forces, IsopotentialIsSoftOnPlateaus)
+TEST(Forces, IsopotentialIsWeakOnPlateaus)
 {
-  // The background lies a little under the iso-value: no reason to go at full speed.
+  // The background is slightly below the iso-value.
   Stage stage(12);
-  stage.Volume = MakeVolume(33, [](double x, double y, double z)
-    { return Distance(x, y, z, 16, 16, 16) < 8 ? 1. : 0.49; });
+  stage.Volume = MakeVolume(
+    33, [](double x, double y, double z) { return Distance(x, y, z, 16, 16, 16) < 8 ? 1. : 0.49; });
   const double step = stage.Push();
-  // Floor of the gradient: .15 times the slope of .51 (a voxel) at the boundary.
+  // Minimum slope: .15 times the slope of .51 per voxel at the boundary.
   const double force = -0.01 / (0.15 * 0.51 * 0.75);
   EXPECT_NEAR(
     stage.MeanSpeedOutward(), SpeedUnder(force, stage.Options, step), 0.1 * std::abs(force));
 }
 
-TEST(Forces, InternalForcesAddUpToNothing)
+TEST(Forces, InternalForcesSumToZero)
 {
-  // Action and reaction: also on an uneven mesh the whole is not pushed anywhere.
+  // Action equals reaction on irregular meshes, too.
   Stage stage(8);
   for (int v : stage.All)
   {
@@ -74,21 +73,20 @@ TEST(Forces, InternalForcesAddUpToNothing)
   EXPECT_LT(Length(sum), 1e-4 * size);
 }
 
-TEST(Forces, TensionIsThePullToTheBarycentreLessItsReaction)
+TEST(Forces, TensionPullsToBarycentreWithReaction)
 {
   Stage stage(EvenOctahedron({ 16, 16, 16 }, 1.6), 1);
   stage.Options.TensionWeight = 0.2;
   stage.State.Mesh.Position[0] += Vector(0.5f, 0, 0);
   stage.UpdateShape();
   const double step = stage.Push();
-  // Its four neighbours are pulled by a quarter of what it sticks out, and hand a quarter of that
-  // on to each of their own.
+  // Each of four neighbours is pulled by a quarter of the offset; a quarter of this reacts on 0.
   const double pull = -(1.6 / std::sqrt(2.) + 0.5);
   const double force = 0.2 * (pull - 4 * 0.25 * (0.25 * 0.5));
   EXPECT_NEAR(stage.State.Velocity[0].X, SpeedUnder(force, stage.Options, step), 1e-5);
 }
 
-TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
+TEST(Forces, ElasticityHasRestLengthOfOnePointSixDelta)
 {
   for (const float delta : { 1.f, 2.f })
   {
@@ -97,7 +95,7 @@ TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
       Stage stage(EvenOctahedron({ 16, 16, 16 }, length * delta), delta);
       stage.Options.ElasticityWeight = 0.1;
       const double step = stage.Push();
-      // Four springs at 45 degrees to the way to the centre.
+      // Four springs at 45 degrees to the radius.
       const double force = 0.1 * 4 * (1.6 - length) * std::sqrt(0.5);
       EXPECT_NEAR(
         stage.MeanSpeedOutward(), delta * SpeedUnder(force, stage.Options, step), 1e-5 * delta)
@@ -106,9 +104,9 @@ TEST(Forces, ElasticityIsSpringsThatRestAtOnePointSixDelta)
   }
 }
 
-TEST(Forces, AreTheSameAtEveryScale)
+TEST(Forces, ScaleWithDelta)
 {
-  // The same scene twice as large, as at a coarser level: everything is twice as fast.
+  // Twice the scale gives twice the velocities.
   Stage fine(10);
   Stage coarse(20, 2);
   coarse.State.Mesh.Position = fine.State.Mesh.Position;
@@ -132,13 +130,14 @@ TEST(Forces, AreTheSameAtEveryScale)
   }
 }
 
-TEST(Forces, GradientForceIsBoundedAndLooksAtTheImageNotAtTheObject)
+TEST(Forces, GradientForceIsBoundedAndIgnoresIsoValue)
 {
-  // Up to radius 12 the potential falls outward, whatever is above or below the iso-value.
+  // The potential decreases outward up to radius 12.
   for (const bool bright : { true, false })
   {
     Stage stage(8.3);
-    stage.Volume = MakeVolume(33, [](double x, double y, double z)
+    stage.Volume = MakeVolume(33,
+      [](double x, double y, double z)
       {
         const double r = Distance(x, y, z, 16, 16, 16);
         return r < 12 ? 1000. - r * r * r : -728.;
@@ -154,15 +153,16 @@ TEST(Forces, GradientForceIsBoundedAndLooksAtTheImageNotAtTheObject)
   }
 }
 
-TEST(Forces, MapOfEdgesPullsToTheRidge)
+TEST(Forces, EdgeAttractionPullsToRidge)
 {
   for (const double radius : { 7., 9. })
   {
     Stage stage(radius);
-    const TestVolume map = MakeVolume(33, [](double x, double y, double z)
+    const TestVolume map = MakeVolume(33,
+      [](double x, double y, double z)
       {
-        const double way = Distance(x, y, z, 16, 16, 16) - 8;
-        return std::exp(-0.5 * way * way);
+        const double r = Distance(x, y, z, 16, 16, 16) - 8;
+        return std::exp(-0.5 * r * r);
       });
     stage.Volume.Image.Edges = map.Values.data();
     stage.Options.IsopotentialWeight = 0;
@@ -171,9 +171,8 @@ TEST(Forces, MapOfEdgesPullsToTheRidge)
   }
 }
 
-TEST(Forces, WhatKnowsNoBackgroundGivesWayToItBeyondTheMargin)
+TEST(Forces, EdgeAndGradientForcesPointInwardBeyondMargin)
 {
-  // The image is flat out there, and so is the map of edges: neither pushes anywhere.
   const TestVolume map = MakeVolume(33, [](double x, double, double) { return x < 16 ? 0. : 1.; });
   for (const bool byEdges : { true, false })
   {
@@ -185,7 +184,7 @@ TEST(Forces, WhatKnowsNoBackgroundGivesWayToItBeyondTheMargin)
     int beyond = 0;
     for (int v : stage.All)
     {
-      // Two units beyond the outermost voxels the margin ends, after another one its ramp.
+      // The margin ends two units beyond the outermost voxels, its ramp after one more.
       const Vector& p = before[v];
       if (std::min({ p.X, p.Y, p.Z }) < -3.1 || std::max({ p.X, p.Y, p.Z }) > 35.1)
       {

@@ -17,7 +17,7 @@ Grading Within(double tolerance)
   return grading;
 }
 
-/** How far outside a box with rounded edges. */
+/** Return the signed distance of a box with rounded edges. */
 double OutsideBox(double x, double y, double z, const std::array<double, 3>& half, double radius)
 {
   const double a = std::max(std::abs(x) - half[0] + radius, 0.);
@@ -26,17 +26,16 @@ double OutsideBox(double x, double y, double z, const std::array<double, 3>& hal
   return std::sqrt(a * a + b * b + c * c) - radius;
 }
 
-/** Large flat sides, edges with a radius of three voxels, and a ball beside it. */
+/** Return the signed distance of a rounded box and a ball. */
 double OutsideBoxAndBall(double x, double y, double z)
 {
   const double box = OutsideBox(x - 20.3, y - 19.6, z - 18.2, { 13., 12., 9. }, 3.);
   return std::min(box, Distance(x, y, z, 20., 20., 38.) - 5.5);
 }
 
-/** How far a place is outside of something. */
+/** Signed distance, positive outside. */
 using Outside = std::function<double(double x, double y, double z)>;
 
-/** What is nearer than 0 to something is more than half. */
 TestVolume VolumeOf(const Outside& outside)
 {
   return MakeVolume(48,
@@ -44,7 +43,7 @@ TestVolume VolumeOf(const Outside& outside)
     { return std::clamp(0.5 - 0.25 * outside(x, y, z), 0., 1.); });
 }
 
-/** The surface of something, on one level. */
+/** Segment an object on one level. */
 SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
 {
   const TestVolume volume = VolumeOf(outside);
@@ -57,7 +56,7 @@ SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
   return evolution.Result();
 }
 
-/** Calls visit(u, v, length) for each edge, twice. */
+/** Call visit(u, v, length) for each edge, twice. */
 void VisitEdges(const IndexedSurface& surface, const std::function<void(int, int, double)>& visit)
 {
   for (const Triangle& t : surface.Triangles)
@@ -85,7 +84,7 @@ void ExpectLegal(const SurfaceResult& surface)
   EXPECT_EQ(outside, 0);
 }
 
-/** A plate of some voxels' thickness, turned about two axes. */
+/** Return the signed distance of an oblique plate. */
 Outside OutsidePlate(double thickness)
 {
   return [thickness](double x, double y, double z)
@@ -98,8 +97,7 @@ Outside OutsidePlate(double thickness)
   };
 }
 
-/** A plate, turned about two axes, as a scanner shows it: all of it fades over a third of a voxel.
- */
+/** Return the distance of an oblique plate whose sides are blurred over a third of a voxel. */
 Outside OutsideBlurredPlate(double thickness)
 {
   return [thickness](double x, double y, double z)
@@ -113,11 +111,11 @@ Outside OutsideBlurredPlate(double thickness)
   };
 }
 
-/** The same from a level of sqrt 3 times the edges, on the same voxels. */
+/** Surfaces of two levels with a factor of sqrt 3, on the same voxels. */
 struct TwoLevels
 {
-  SurfaceResult Divided; ///< As it comes to the finer level,
-  SurfaceResult AtRest;  ///< and when it rests there.
+  SurfaceResult Divided; ///< at the start of the finer level
+  SurfaceResult AtRest;  ///< converged
   MissedParts Missed;
 };
 TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, double fineUnit = 1.)
@@ -151,7 +149,7 @@ Grading ThinParts()
 }
 }
 
-TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
+TEST(GradedSizing, HasLargerSearchRadiusThanUniformSizing)
 {
   const LargeVector<float> sizes = { 1.f, 4.f };
   const SizingField even(1.f);
@@ -163,20 +161,20 @@ TEST(GradedSizing, LooksFurtherThanWhereAllAreAlike)
     const SizingField sizing = even.Graded(sizes, 4.f, static_cast<float>(gradation));
     EXPECT_GT(sizing.SearchRadius(0), before);
     before = sizing.SearchRadius(0);
-    // From v to a point of its star, and on to a corner of a face that grows with the distance d:
-    // d = .36 longest + (1 + g d) 2.5 / sqrt 3, both in delta.
-    const double longest = 1. / (1. - 1.25 * gradation); // Its delta is the mean of both ends'.
+    // From v to a point of its star, then to a corner of a face that grows with the distance d:
+    // d = .36 longest + (1 + g d) 2.5 / sqrt 3, in delta.
+    const double longest = 1. / (1. - 1.25 * gradation); // delta of an edge: mean of its vertices
     const double furthest =
       (.36 * longest + 2.5 / std::sqrt(3.)) / (1. - gradation * 2.5 / std::sqrt(3.));
     EXPECT_GT(sizing.SearchRadius(0), furthest);
-    EXPECT_EQ(sizing.SearchRadius(1), SizingField(4.f).SearchRadius(1)) << "nothing is larger";
+    EXPECT_EQ(sizing.SearchRadius(1), SizingField(4.f).SearchRadius(1)) << "the largest size";
   }
-  // While it evolves a part with the largest may come near to one with the least.
+  // During evolution the largest and smallest sizes may meet.
   const SizingField any = even.Graded(sizes, 4.f, 1.f);
   EXPECT_EQ(any.SearchRadius(0), SizingField(4.f).SearchRadius(0));
 }
 
-TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
+TEST(GradedSurface, RespectsGradationAndMaximumEdgeLength)
 {
   Grading grading = Within(2.);
   grading.MaximumEdgeLength = 5.;
@@ -191,13 +189,13 @@ TEST(GradedSurface, GrowsBySmallStepsUpToTheLongestEdge)
       steepest = std::max(steepest, std::abs(surface.Size[u] - surface.Size[v]) / length);
     });
   EXPECT_LE(longest, 5.);
-  EXPECT_GT(longest, 4.) << "or it was not the bound";
-  // Vertices have moved a little since the sizes were chosen.
+  EXPECT_GT(longest, 4.) << "the bound must be reached";
+  // Vertices have moved since the sizes were computed.
   EXPECT_LT(steepest, 1.5 * grading.Gradation);
   EXPECT_FLOAT_EQ(*std::max_element(surface.Size.begin(), surface.Size.end()), 2.f);
 }
 
-TEST(GradedSurface, KeepsThinWallsWithoutHoles)
+TEST(GradedSurface, PreservesThinWalls)
 {
   for (const double thickness : { 1.5, 2.5, 4. })
   {
@@ -207,25 +205,24 @@ TEST(GradedSurface, KeepsThinWallsWithoutHoles)
     const SurfaceFeatures features = ComputeFeatures(plate);
     EXPECT_EQ(features.Components.size(), 1u);
     EXPECT_EQ(features.Genus, 0);
-    // Both sides are flat and a tolerance of a voxel is much: the walls are what keeps it fine.
+    // The thickness, not curvature or tolerance, limits the sizes.
     const auto large = std::count_if(plate.Size.begin(), plate.Size.end(),
       [thickness](float delta) { return delta > std::max(1., 0.5 * thickness); });
-    EXPECT_LT(large, 0.15 * plate.Size.size()) << "all but those at the rim";
+    EXPECT_LT(large, 0.15 * plate.Size.size()) << "except at the border of the plate";
   }
 }
 
-TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
+TEST(LocalDivision, DividesOnlyWhereToleranceRequires)
 {
   const SurfaceResult coarse = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(100.)).Divided;
   ExpectLegal(coarse);
   EXPECT_GT(*std::min_element(coarse.Size.begin(), coarse.Size.end()), 1.4f * 0.85f)
-    << "a tolerance that all of it keeps divides nothing";
+    << "not divided";
   constexpr double tolerance = 0.25;
   const TwoLevels some = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(tolerance));
   ExpectLegal(some.AtRest);
   EXPECT_GT(some.Divided.Points.size(), 1.03 * coarse.Points.size());
   EXPECT_LT(some.Divided.Points.size(), 2 * coarse.Points.size());
-  // It is as good as one that was divided everywhere.
   const SurfaceResult whole = SurfaceOf(OutsideBoxAndBall, Within(tolerance));
   EXPECT_GT(
     some.AtRest.FitToTolerance->WithinTolerance, whole.FitToTolerance->WithinTolerance - 0.005);
@@ -234,14 +231,14 @@ TEST(LocalDivision, IsDividedOnlyWhereAToleranceAsksForIt)
     0.002 * ComputeFeatures(whole).Volume);
 }
 
-TEST(LocalDivision, IsDividedEverywhereWhereNearlyAllOfItAsksForThat)
+TEST(LocalDivision, DividesEverywhereForSmallTolerance)
 {
   const TwoLevels all = SurfaceOfTwoLevels(OutsideBoxAndBall, Within(1e-3));
-  EXPECT_TRUE(all.Divided.Size.empty()) << "it is even until it rests";
+  EXPECT_TRUE(all.Divided.Size.empty()) << "uniform until convergence";
   ExpectLegal(all.AtRest);
 }
 
-TEST(LocalDivision, HoldsAnObliquePlateWithoutHoles)
+TEST(LocalDivision, PreservesObliquePlate)
 {
   const TwoLevels levels =
     SurfaceOfTwoLevels(OutsideBlurredPlate(1.), ThinParts(), 1. / std::sqrt(3.));

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What the history tells is what the surface does.
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -17,7 +16,7 @@ long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
 }
 }
 
-TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
+TEST(History, KineticEnergyMatchesTerminalSpeedAndVanishes)
 {
   const TestVolume volume = BallVolume(40, 8);
   for (const double friction : { 3., 5. })
@@ -29,28 +28,28 @@ TEST(History, KineticEnergyIsThatOfTheFinalSpeedInTheOpenAndNoneAtRest)
     ASSERT_EQ(evolution.Run(), StopReason::Converged);
     const std::vector<HistoryRow>& rows = evolution.History();
     ASSERT_GT(rows.size(), 40u);
-    // Forces and friction balance long before the object is reached.
+    // Forces and friction balance before the surface reaches the object.
     const double speed = evolution.Result().Delta / friction;
     EXPECT_NEAR(rows[20].KineticEnergy, 0.5 * speed * speed, 0.05 * speed * speed);
     EXPECT_LT(rows.back().KineticEnergy, 0.01 * speed * speed);
     EXPECT_LE(rows[20].TimeStep, 0.5 * friction * (1 + 1e-5));
-    EXPECT_GT(rows[20].TimeStep, 0.4 * friction) << "the edges of the box are a little faster";
+    EXPECT_GT(rows[20].TimeStep, 0.4 * friction) << "edges of the box are slightly faster";
   }
 }
 
-TEST(History, RowsTellTheStateAfterTheirSweep)
+TEST(History, RowsDescribeStateAfterSweep)
 {
   const TestVolume volume = BallVolume(28, 7);
   TestEvolution evolution(IsoHalf(), Threads, Silent);
-  int looks = 0;
+  int sweeps = 0;
   evolution.AfterSweep = [&]
   {
-    ++looks;
+    ++sweeps;
     const SurfaceResult surface = evolution.Result();
     const SurfaceFeatures features = ComputeFeatures(surface);
     const HistoryRow& row = evolution.History().back();
-    SCOPED_TRACE("sweep " + std::to_string(looks));
-    EXPECT_EQ(row.Iteration, 5 * looks);
+    SCOPED_TRACE("sweep " + std::to_string(sweeps));
+    EXPECT_EQ(row.Iteration, 5 * sweeps);
     EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
     EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
     EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
@@ -62,14 +61,14 @@ TEST(History, RowsTellTheStateAfterTheirSweep)
   };
   evolution.StartEnclosing(volume.Image, 0);
   EXPECT_EQ(evolution.Run(), StopReason::Converged);
-  EXPECT_GT(looks, 5);
+  EXPECT_GT(sweeps, 5);
   const std::vector<HistoryRow>& rows = evolution.History();
   ASSERT_GT(rows.size(), 10u);
-  EXPECT_EQ(rows.back().ActiveVertices, 0) << "a level ends when nothing moves";
+  EXPECT_EQ(rows.back().ActiveVertices, 0) << "a level ends without active vertices";
   EXPECT_GT(rows[rows.size() - 6].ActiveVertices, 0) << "at the end of the sweep before";
 }
 
-TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
+TEST(History, ArrivedVerticesFreezeIfEnabled)
 {
   const TestVolume volume = BallVolume(32, 10);
   for (const bool freeze : { true, false })
@@ -102,9 +101,8 @@ TEST(History, VerticesBecomeMotionlessAsTheyArriveIfAllowedTo)
   }
 }
 
-TEST(History, CountsOfMergesAndCutsExplainTheTopology)
+TEST(History, EditCountsExplainTopology)
 {
-  // Two seeds grow around a ring.
   const TestVolume volume = MakeVolume(40,
     [](double x, double y, double z)
     {
@@ -119,7 +117,7 @@ TEST(History, CountsOfMergesAndCutsExplainTheTopology)
   EXPECT_EQ(4 + 2 * (Sum(rows, &HistoryRow::Cuts) - Sum(rows, &HistoryRow::Merges)), 0);
   EXPECT_GE(Sum(rows, &HistoryRow::Merges), 2);
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Genus, 1);
-  // A merge takes two vertices.
+  // A merge removes two vertices.
   const long explained = static_cast<long>(start) + Sum(rows, &HistoryRow::Splits) -
     Sum(rows, &HistoryRow::Collapses) - 2 * Sum(rows, &HistoryRow::Merges) +
     3 * Sum(rows, &HistoryRow::Cuts);
@@ -129,12 +127,12 @@ TEST(History, CountsOfMergesAndCutsExplainTheTopology)
     EXPECT_LE(row.ActiveVertices, row.Vertices + row.Collapses + 2 * row.Merges);
     last = row.Vertices;
   }
-  // The polish at the end edits a few more, which no row counts.
+  // The final optimization makes edits that no row counts.
   EXPECT_NEAR(explained, last, 0.1 * last);
   EXPECT_GT(Sum(rows, &HistoryRow::Flips), 50);
 }
 
-TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
+TEST(History, LevelConvergesWithItsVolume)
 {
   const TestVolume volume = BallVolume(32, 10);
   std::vector<std::size_t> iterations;
@@ -142,15 +140,15 @@ TEST(History, ALevelRestsAsSoonAsItsVolumeDoes)
   {
     SurfaceOptions options = IsoHalf();
     options.ConvergenceTolerance = tolerance;
-    options.FreezeMotionlessVertices = false; // Else it ends when none is active any more.
+    options.FreezeMotionlessVertices = false; // else the level ends without active vertices
     std::vector<double> volumes;
     TestEvolution evolution(options, Threads, Silent);
     evolution.AfterSweep = [&] { volumes.push_back(ComputeFeatures(evolution.Result()).Volume); };
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double delta = evolution.Result().Delta;
-    // By the words of SurfaceOptions::ConvergenceTolerance.
-    std::size_t expected = 5; // Sweeps of five iterations.
+    // As documented at SurfaceOptions::ConvergenceTolerance.
+    std::size_t expected = 5;
     for (; expected < volumes.size(); ++expected)
     {
       const double last = volumes[expected - 1];

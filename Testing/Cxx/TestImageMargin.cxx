@@ -7,7 +7,7 @@ using namespace volumic;
 
 namespace
 {
-/** Furthest way of a point beyond the outermost voxels, along any axis, in lengths. */
+/** Return the largest distance beyond the outermost voxels along an axis. */
 double Beyond(const SurfaceResult& surface, const LevelImage& image)
 {
   double furthest = 0;
@@ -29,14 +29,14 @@ SurfaceOptions Replicating()
   return options;
 }
 
-/** A rod along x that leaves the image on both sides. */
+/** Rod along x that crosses the image. */
 TestVolume Rod()
 {
-  return MakeVolume(16, [](double, double y, double z)
-    { return Soft(std::hypot(y - 8., z - 8.) - 4.); });
+  return MakeVolume(
+    16, [](double, double y, double z) { return Soft(std::hypot(y - 8., z - 8.) - 4.); });
 }
 
-/** What a test of the whole margin allows: it, its ramp, and a delta. */
+/** Return the largest valid distance: margin, ramp and delta. */
 double Most(const LevelImage& image, double delta)
 {
   double most = 0;
@@ -48,10 +48,10 @@ double Most(const LevelImage& image, double delta)
 }
 }
 
-TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
+TEST(ImageMargin, ReplicatedObjectClosesAtMargin)
 {
   TestVolume volume = Rod();
-  for (const double step : { 1., 2.5 }) // Along x: the margin is a voxel where that is longer.
+  for (const double step : { 1., 2.5 }) // the margin is at least one voxel
   {
     volume.Image.Step[0] = step;
     SurfaceOptions options = Replicating();
@@ -61,13 +61,13 @@ TEST(ImageMargin, AReplicatedObjectClosesAtTheMargin)
     evolution.StartSeeds(volume.Image, 0, { { 8 * step, 8, 8 } });
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double beyond = Beyond(evolution.Result(), volume.Image);
-    EXPECT_GT(beyond, std::max(2., step) - 0.2) << "it is replicated up to there";
+    EXPECT_GT(beyond, std::max(2., step) - 0.2) << "replicated up to the margin";
     EXPECT_LT(beyond, std::max(2., step) + 0.7);
     EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
   }
 }
 
-TEST(ImageMargin, NoSettingLeadsFurtherOut)
+TEST(ImageMargin, BoundsSurfaceForAnySettings)
 {
   std::mt19937 engine(7);
   const auto uniform = [&engine](double low, double high)
@@ -75,13 +75,14 @@ TEST(ImageMargin, NoSettingLeadsFurtherOut)
   for (int run = 0; run < 24; ++run)
   {
     const double wave = uniform(0.3, 1.2);
-    TestVolume volume = MakeVolume(12, [&](double x, double y, double z)
+    TestVolume volume = MakeVolume(12,
+      [&](double x, double y, double z)
       { return 0.5 + std::sin(wave * x) * std::cos(wave * y) + uniform(-0.3, 0.3) + 0.05 * z; });
-    const TestVolume edges = MakeVolume(12, [&](double x, double, double z)
-      { return uniform(0., 1.) + 0.2 * x - 0.1 * z; });
+    const TestVolume edges = MakeVolume(
+      12, [&](double x, double, double z) { return uniform(0., 1.) + 0.2 * x - 0.1 * z; });
     volume.Image.Step = { 1., 1., uniform(1., 4.) };
-    const auto weight = [&](double share)
-    { return uniform(0., 1.) < share ? std::pow(10., uniform(-2., 3.5)) : 0.; };
+    const auto weight = [&](double probability)
+    { return uniform(0., 1.) < probability ? std::pow(10., uniform(-2., 3.5)) : 0.; };
     SurfaceOptions options = Replicating();
     options.BorderValue = run % 3 == 0 ? Border::Background : Border::Replicate;
     options.TensionWeight = weight(0.7);

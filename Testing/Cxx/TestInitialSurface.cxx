@@ -1,8 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
-#include "Core/Image/Field.h"
-#include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -25,9 +22,9 @@ LevelImage ImageOf(const std::array<int, 3>& size, const Point& step)
 }
 }
 
-TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
+TEST(InitialSurface, EnclosingSurfaceHasValidEdgesForAnyBox)
 {
-  // Voxels of 1 : 20, sheets, rods, a single cell: a sphere mapped to these had edges of .1 delta.
+  // Anisotropic voxels, sheets, rods, a single cell.
   for (const LevelImage& image : { ImageOf({ 30, 20, 10 }, { 1, 1, 2 }),
          ImageOf({ 33, 52, 59 }, { 1, 1.02, 7.55 }), ImageOf({ 4, 4, 90 }, { 1, 1, 20 }),
          ImageOf({ 90, 60, 3 }, { 1, 1, 1 }), ImageOf({ 2, 2, 2 }, { 1, 1, 1 }) })
@@ -38,41 +35,36 @@ TEST(InitialSurface, EnclosingSurfaceHasLegalEdgesWhateverTheBox)
       EXPECT_NO_THROW(CheckInitialSurface(box));
       EXPECT_EQ(CountSelfIntersections(box), 0);
       EXPECT_GT(ComputeFeatures(box).Volume, 0.) << "outward oriented";
-      const std::vector<double> lengths = EdgeLengths(box);
-      EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 1.1 * delta);
-      EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2. * delta);
-      SurfaceMesh mesh;
-      mesh.Append(box);
+      ExpectEdgesWithin(box, 1.1 * delta, 2. * delta);
+      const SurfaceMesh mesh = MeshOf(box);
       for (const Ring& ring : mesh.Rings)
       {
-        EXPECT_GE(ring.Count, 4) << "else an edit would have to remove it";
+        EXPECT_GE(ring.Count, 4);
         EXPECT_LE(ring.Count, 8);
       }
     }
   }
 }
 
-TEST(InitialSurface, RefusesToEncloseVoxelsOfAnyLength)
+TEST(InitialSurface, RejectsExtremeSpacing)
 {
   EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
   for (const double step : { 1e6, 1e20, 1e300 })
   {
-    EXPECT_TRUE(Has(ErrorMessageOf(
-                      [&] {
-                        EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, step }), 1.);
-                      }),
+    const LevelImage image = ImageOf({ 20, 20, 20 }, { 1, 1, step });
+    EXPECT_TRUE(Has(ErrorMessageOf([&] { EnclosingSurface(image, 1.); }),
       "times as long as wide. Check the Spacing"));
   }
 }
 
-TEST(InitialSurface, RefusesAnAreaOfTooManyVertices)
+TEST(InitialSurface, RejectsTooManyVertices)
 {
   const LevelImage image = ImageOf({ 20, 20, 20 }, { 1, 1, 1e6 });
   EXPECT_NO_THROW(CheckNumberOfVertices(1e7, image, 1.));
   EXPECT_THROW(CheckNumberOfVertices(1e8, image, 1.), std::invalid_argument);
 }
 
-TEST(InitialSurface, SeedsLieInTheObjectAndApart)
+TEST(InitialSurface, SeedsAreInObjectAndApart)
 {
   const TestVolume volume = Half();
   const Field field(volume.Image, SurfaceOptions(), Threads);
@@ -85,7 +77,7 @@ TEST(InitialSurface, SeedsLieInTheObjectAndApart)
   EXPECT_THROW(ChooseSeeds(field, { { 15, 5, 5 } }, 3), std::invalid_argument);
 }
 
-TEST(InitialSurface, WithoutPlacesSeedsAreAGridInTheObject)
+TEST(InitialSurface, DefaultSeedsFormGridInObject)
 {
   const TestVolume volume = Half();
   const Field field(volume.Image, SurfaceOptions(), Threads);
@@ -97,9 +89,8 @@ TEST(InitialSurface, WithoutPlacesSeedsAreAGridInTheObject)
   }
 }
 
-TEST(InitialSurface, AnIsoSurfaceHasEvenTheSmallestParts)
+TEST(InitialSurface, IsosurfaceHasSmallestParts)
 {
-  // A voxel, beside a ball.
   const TestVolume volume = MakeVolume(32,
     [](double x, double y, double z)
     {

@@ -15,7 +15,7 @@ TestVolume Ball()
     [](double x, double y, double z) { return Soft(Distance(x, y, z, 19.5, 19.5, 19.5) - 12.); });
 }
 
-/** As VTK's cylinder source makes it, triangulated: caps are fans of ears, sides long slivers. */
+/** Triangulated cylinder as of vtkCylinderSource: caps are fans, sides are slivers. */
 IndexedSurface Cylinder(double radius, double height, int sides)
 {
   IndexedSurface surface;
@@ -41,18 +41,6 @@ IndexedSurface Cylinder(double radius, double height, int sides)
   return surface;
 }
 
-/** Eq. (1) for edges, no intersection, and a mesh whose rings agree. */
-void ExpectLegal(const IndexedSurface& surface, double delta)
-{
-  EXPECT_EQ(CountSelfIntersections(surface), 0);
-  SurfaceMesh mesh;
-  mesh.Append(surface);
-  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
-  const std::vector<double> lengths = EdgeLengths(surface);
-  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), 0.999 * delta);
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.501 * delta);
-}
-
 std::string ErrorMessageOf(const IndexedSurface& surface)
 {
   const TestVolume volume = Ball();
@@ -61,9 +49,8 @@ std::string ErrorMessageOf(const IndexedSurface& surface)
 }
 }
 
-TEST(InitialSurfaceCheck, KeepsItsComponentsCavitiesAndTunnels)
+TEST(InitialSurfaceCheck, PreservesComponentsCavitiesAndTunnels)
 {
-  // A torus, a thick-walled box, both of large triangles, and a ball of many small ones.
   const TestVolume volume = Ball();
   IndexedSurface given = MakeTorus({ 12, 12, 8 }, 7, 3, 9, 6);
   AddSurface(given, Cuboid({ 20, 20, 16 }, { 38, 38, 36 }));
@@ -72,44 +59,45 @@ TEST(InitialSurfaceCheck, KeepsItsComponentsCavitiesAndTunnels)
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.StartSurface(volume.Image, 0, given);
   const SurfaceResult start = evolution.Result();
-  ExpectLegal(start, start.Delta);
+  ExpectValidMesh(start);
+  ExpectEdgesWithin(start, 0.999 * start.Delta, 2.501 * start.Delta);
   const SurfaceFeatures features = ComputeFeatures(start);
   EXPECT_EQ(features.Components.size(), 4u);
   EXPECT_EQ(features.Genus, 1);
   EXPECT_NEAR(features.Volume / ComputeFeatures(given).Volume, 1., 0.03);
 }
 
-TEST(InitialSurfaceCheck, IsTakenAsItIsWhereItIsLegal)
+TEST(InitialSurfaceCheck, PreservesValidMesh)
 {
   const TestVolume volume = Ball();
   TestEvolution first(IsoHalf(), Threads, Silent);
   first.StartEnclosing(volume.Image, 0);
   first.Run();
-  const SurfaceResult rested = first.Result();
+  const SurfaceResult converged = first.Result();
   TestEvolution second(IsoHalf(), Threads, Silent);
-  IndexedSurface withMore = rested;
-  withMore.Points.insert(withMore.Points.begin(), { 1, 2, 3 }); // Used by no triangle.
+  IndexedSurface withMore = converged;
+  withMore.Points.insert(withMore.Points.begin(), { 1, 2, 3 }); // unused point
   for (Triangle& t : withMore.Triangles)
   {
     t = { t[0] + 1, t[1] + 1, t[2] + 1 };
   }
   second.StartSurface(volume.Image, 0, withMore);
   const SurfaceResult again = second.Result();
-  ASSERT_EQ(again.Points.size(), rested.Points.size());
-  EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(rested).Volume, 1e-6);
+  ASSERT_EQ(again.Points.size(), converged.Points.size());
+  EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(converged).Volume, 1e-6);
 }
 
-TEST(GivenSurfaceInvalid, RefusesWrongUnitsAndNamesBothSizes)
+TEST(InputSurfaceInvalid, RejectsWrongUnits)
 {
   const std::string text = ErrorMessageOf(Cylinder(13000, 25500, 12));
   EXPECT_TRUE(Has(text, "too large for the image"));
   EXPECT_TRUE(Has(text, "26000"));
   EXPECT_TRUE(Has(text, "the image 40"));
   EXPECT_TRUE(Has(text, "unit"));
-  EXPECT_EQ(ErrorMessageOf(Cylinder(35, 70, 12)), "") << "what encloses the image generously";
+  EXPECT_EQ(ErrorMessageOf(Cylinder(35, 70, 12)), "") << "larger than the image";
 }
 
-TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
+TEST(InputSurfaceInvalid, RejectsSurfaceThinnerThanEdges)
 {
   EXPECT_EQ(ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "");
   const std::string text = ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
@@ -117,14 +105,14 @@ TEST(GivenSurfaceInvalid, RefusesWhatIsThinnerThanTheTriangles)
   EXPECT_TRUE(Has(text, "finer level"));
 }
 
-TEST(GivenSurfaceInvalid, RefusesWhatVanishesWithinATriangleOrTwo)
+TEST(InputSurfaceInvalid, RejectsSurfaceSmallerThanEdges)
 {
   const std::string text = ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
   EXPECT_TRUE(Has(text, "too small for this level"));
   EXPECT_EQ(ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 3., 0.2)), "");
 }
 
-TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
+TEST(InputSurfaceInvalid, RejectsMisorientedComponents)
 {
   const IndexedSurface box = Cuboid({ 5, 5, 5 }, { 35, 35, 35 });
   const IndexedSurface inner = Cuboid({ 12, 12, 12 }, { 28, 28, 28 });
@@ -137,10 +125,10 @@ TEST(GivenSurfaceInvalid, RefusesComponentsThatAreNoBoundary)
   IndexedSurface hollow = box;
   AddSurface(hollow, InsideOut(inner));
   AddSurface(hollow, Cuboid({ 16, 16, 16 }, { 24, 24, 24 }));
-  EXPECT_EQ(ErrorMessageOf(hollow), "") << "a cavity, and a body in it";
+  EXPECT_EQ(ErrorMessageOf(hollow), "") << "a component in a cavity";
 }
 
-TEST(LatticeSurface, IsLegalForAnyLattice)
+TEST(LatticeSurface, IsValidForAnyLattice)
 {
   const IndexedSurface given = Cylinder(9, 14, 50);
   const SurfaceFeatures requested = ComputeFeatures(given);
@@ -150,10 +138,7 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
     {
       const IndexedSurface mesh =
         RemeshOnLattice(given, pitch, attempt, Threads, [](double) { return true; });
-      EXPECT_EQ(CountSelfIntersections(mesh), 0);
-      SurfaceMesh rings;
-      rings.Append(mesh);
-      EXPECT_EQ(DescribeBrokenInvariant(rings), "");
+      ExpectValidMesh(mesh);
       const SurfaceFeatures features = ComputeFeatures(mesh);
       EXPECT_EQ(features.EulerCharacteristic, 2);
       EXPECT_NEAR(features.Volume / requested.Volume, 1., 0.02 * pitch * pitch);
@@ -161,11 +146,9 @@ TEST(LatticeSurface, IsLegalForAnyLattice)
       {
         EXPECT_NEAR(
           features.Components[0].Centroid[k], requested.Components[0].Centroid[k], 0.1 * pitch)
-          << "turned back";
+          << "rotated back";
       }
-      const std::vector<double> lengths = EdgeLengths(mesh);
-      EXPECT_LT(*std::max_element(lengths.begin(), lengths.end()), 2. * pitch);
-      EXPECT_GT(*std::min_element(lengths.begin(), lengths.end()), 0.1 * pitch);
+      ExpectEdgesWithin(mesh, 0.1 * pitch, 2. * pitch);
     }
   }
 }

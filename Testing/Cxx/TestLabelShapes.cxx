@@ -50,8 +50,8 @@ TEST_P(LabelAccuracy, IsWithinBounds)
     const TriangleSurface surface = ToTriangleSurface(block);
     const MisclassifiedVoxelVerdict voxels = JudgeVoxels(surface, shapes.Map, shape.Label);
     EXPECT_EQ(FieldOf(block, "LabelVoxels"), voxels.Label);
-    EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Wrong()) << "judge and filter differ";
-    EXPECT_LE(voxels.Wrong(), bounds.Wrong * voxels.Label)
+    EXPECT_EQ(FieldOf(block, "WrongVoxels"), voxels.Misclassified()) << "judge and filter differ";
+    EXPECT_LE(voxels.Misclassified(), bounds.Wrong * voxels.Label)
       << voxels.Outside << " outside, " << voxels.Inside << " inside";
     if (shape.Distance)
     {

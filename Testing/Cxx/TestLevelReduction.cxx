@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/LevelReduction.h"
 #include "Core/Image/ValidReduction.h"
-#include "ForVoxels.h"
 #include "TestPrelude.h"
 
 #include <type_traits>
@@ -11,17 +10,17 @@ using namespace volumic;
 
 namespace
 {
-const ProgressCallback GoOn = [](double) { return true; };
+const ProgressCallback Continue = [](double) { return true; };
 
 template <typename T>
 std::vector<T> RandomVoxels(std::int64_t n)
 {
   std::mt19937 generator(7);
-  std::uniform_real_distribution<double> share(0.0, 1.0);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<T> voxels(n);
   for (T& voxel : voxels)
   {
-    voxel = static_cast<T>(share(generator) * 120.0);
+    voxel = static_cast<T>(uniform(generator) * 120.0);
   }
   return voxels;
 }
@@ -31,7 +30,7 @@ std::vector<typename RealOf<T>::Type> Reduce(
   const std::vector<T>& voxels, const std::vector<LevelGeometry>& levels, Executor& executor)
 {
   std::vector<typename RealOf<T>::Type> out(levels[1].NumberOfVoxels(), -1);
-  EXPECT_TRUE(ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor, GoOn));
+  EXPECT_TRUE(ReduceLevel(voxels.data(), levels[0], out.data(), levels[1], executor, Continue));
   return out;
 }
 
@@ -50,9 +49,9 @@ class LevelReductionOf : public ::testing::Test
 };
 using Scalars = ::testing::Types<char, signed char, unsigned char, short, unsigned short, int,
   unsigned int, long, unsigned long, long long, unsigned long long, float, double>;
-TYPED_TEST_SUITE(LevelReductionOf, Scalars, ); // C++17 wants the comma
+TYPED_TEST_SUITE(LevelReductionOf, Scalars, ); // C++17 requires the last comma
 
-TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
+TYPED_TEST(LevelReductionOf, AgreesWithDoubleForAnyWidth)
 {
   using Real = typename RealOf<TypeParam>::Type;
   const bool isDouble = std::is_same<TypeParam, double>::value;
@@ -73,7 +72,7 @@ TYPED_TEST(LevelReductionOf, GivesWhatDoublesGiveWhateverAVectorLengthLeaves)
   }
 }
 
-TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
+TEST(ValidReduction, IsNanWhereHalfOfWeightIsInvalid)
 {
   const auto levels = TwoLevels({ 30, 20, 24 });
   Executor executor;
@@ -84,14 +83,14 @@ TEST(ValidReduction, HasNoValueWhereHalfOfTheWeightHasNone)
   }
   const std::vector<double> voxels(valid.size(), 1e9 + 7.0);
   std::vector<double> out(levels[1].NumberOfVoxels());
-  EXPECT_TRUE(ReduceValidVoxels(
-    voxels.data(), valid, levels[0], out.data(), levels[1], executor, GoOn));
+  EXPECT_TRUE(
+    ReduceValidVoxels(voxels.data(), valid, levels[0], out.data(), levels[1], executor, Continue));
   const auto size = levels[1].Size;
   for (std::int64_t i = 0; i < levels[1].NumberOfVoxels(); ++i)
   {
-    // Voxels of level 0 end at 14; half of the kernel lies beyond 14.5.
-    const double place = static_cast<double>(i % size[0]) * 30.0 / static_cast<double>(size[0]);
-    ASSERT_EQ(std::isnan(out[i]), place > 14.5) << place;
+    // Voxels are valid up to 14. At 14.5 half of the kernel is invalid.
+    const double x = static_cast<double>(i % size[0]) * 30.0 / static_cast<double>(size[0]);
+    ASSERT_EQ(std::isnan(out[i]), x > 14.5) << x;
     ASSERT_TRUE(std::isnan(out[i]) || std::abs(out[i] - 1e9 - 7.0) < 1e-5);
   }
   EXPECT_EQ(MarkNumbers(out.data(), 1)[0], 1);

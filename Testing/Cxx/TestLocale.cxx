@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// In programs of countries that write 1.234,5: what the filters write must be read by scripts.
+// Messages and texts do not depend on the locale.
 #include "CommaLocale.h"
 #include "SurfaceTestTools.h"
-
 
 #include <clocale>
 #include <cstdio>
@@ -15,23 +14,20 @@ using namespace volumic;
 
 namespace
 {
-/** The two ways in which a program can have such a locale. */
-enum class Way
+/** Functions that set the locale. */
+enum class Method
 {
   Global,  ///< std::locale::global, for streams
   Numeric, ///< setlocale, for printf, std::to_string and strtod
 };
 
-/**
- * Makes LC_NUMERIC of Germany for the tests, so that the system need not have it; false without
- * localedef.
- */
+/** Create the German LC_NUMERIC for the tests. @return false without localedef */
 bool MakeCommaForC()
 {
   const std::filesystem::path folder =
     std::filesystem::path(::testing::TempDir()) / "volumic-locales";
   const std::filesystem::path made = folder / "de_DE.UTF-8";
-  // The C library remembers what it has not found: it is asked only when all is there.
+  // The C library caches missing locales: set the locale only after creating it.
   setenv("LOCPATH", folder.c_str(), 1);
   std::filesystem::create_directories(folder);
   const std::string command =
@@ -39,7 +35,7 @@ bool MakeCommaForC()
   return std::filesystem::exists(made / "LC_NUMERIC") || std::system(command.c_str()) == 0;
 }
 
-/** Whether printf writes 0,5 from now on. */
+/** Set the locale. @return whether printf writes 0,5 */
 bool SetCommaForC()
 {
   static const bool isMade = MakeCommaForC();
@@ -51,18 +47,18 @@ bool SetCommaForC()
   return std::string(text) == "0,5";
 }
 
-class FilterLocale : public ::testing::TestWithParam<Way>
+class FilterLocale : public ::testing::TestWithParam<Method>
 {
 protected:
   void SetUp() override
   {
-    if (GetParam() == Way::Global)
+    if (GetParam() == Method::Global)
     {
       this->Streams = std::make_unique<CommaLocale>();
     }
     else if (!SetCommaForC())
     {
-      GTEST_SKIP() << "there is no locale with a comma, and localedef makes none";
+      GTEST_SKIP() << "no locale with a decimal comma, and no localedef";
     }
     this->Filter->SetInputDataObject(BallImage(40, 40, 40));
     this->Filter->SetIsoValue(50.0);
@@ -88,7 +84,7 @@ TEST_P(FilterLocale, SettingsOutOfRange)
   this->ExpectError("Tension Weight is 1e+300, it must lie in [0, 1000000]");
 }
 
-TEST_P(FilterLocale, PlacesOutsideTheImage)
+TEST_P(FilterLocale, PositionsOutsideImage)
 {
   const auto seeds = PointsAt({ { 20, 20, 1234.5 } });
   this->Filter->SetInitializationToSeeds();
@@ -111,4 +107,4 @@ TEST_P(FilterLocale, Progress)
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ways, FilterLocale, ::testing::Values(Way::Global, Way::Numeric));
+INSTANTIATE_TEST_SUITE_P(Methods, FilterLocale, ::testing::Values(Method::Global, Method::Numeric));

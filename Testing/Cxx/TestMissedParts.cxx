@@ -5,44 +5,37 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
-#include <random>
-
 using namespace volumic;
 
 namespace
 {
 constexpr float Delta = 0.85f;
-/** A ball that the surface knows, holding a bubble that it does not know, and a lost ball. */
+/** A ball enclosed by the surface, with a missed cavity, and a missed ball. */
 TestVolume Scene()
 {
   return MakeVolume(48,
     [](double x, double y, double z)
     {
-      const double known = Distance(x, y, z, 18, 24, 24) - 13.;
+      const double ball = Distance(x, y, z, 18, 24, 24) - 13.;
       const double bubble = 6. - Distance(x, y, z, 17, 24, 24);
       const double missed = Distance(x, y, z, 40, 24, 24) - 4.;
-      return Soft(std::min(std::max(known, bubble), missed));
+      return Soft(std::min(std::max(ball, bubble), missed));
     });
 }
 
-void Fill(SurfaceState& state)
-{
-  state.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
-  state.Sizing = SizingField(Delta);
-  state.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-}
-
-/** The known ball's surface in an image. */
-struct KnownBall
+/** The surface of the enclosed ball. */
+struct EnclosedBall
 {
   TestVolume Volume;
   Field Image;
   SurfaceState State;
 
-  explicit KnownBall(TestVolume volume = Scene())
+  explicit EnclosedBall(TestVolume volume = Scene())
     : Volume(std::move(volume)), Image(this->Volume.Image, IsoHalf(), Threads)
   {
-    Fill(this->State);
+    this->State.Mesh = MakeSphere({ 18, 24, 24 }, 13., 1.4 * Delta);
+    this->State.Sizing = SizingField(Delta);
+    this->State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
   }
 
   MissedBoundary::Missing MissedBy(const MissedBoundary& boundary) const
@@ -58,19 +51,13 @@ struct KnownBall
   }
 };
 
-/** Far enough from the surface, all of them count. */
-int VoxelsOfTheLostBall(const Field& field)
+/** Count the voxels of the missed ball. */
+int VoxelsOfMissedBall(const Field& field)
 {
   int count = 0;
   ForBox(
     { 34, 0, 0 }, { 48, 48, 48 }, [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
   return count;
-}
-
-RecoverySurfaces FindAll(
-  const SurfaceState& state, const Field& field, PartKind kind, RecoveryShape shape)
-{
-  return FindMissedParts(state, field, kind, 20, shape, Threads);
 }
 
 double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
@@ -87,59 +74,58 @@ double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
 }
 }
 
-TEST(MissedParts, EnclosesObjectOutsideTheSurfaceAndBackgroundInside)
+TEST(MissedParts, EnclosesMissedObjectsAndCavities)
 {
-  const KnownBall known;
+  const EnclosedBall ball;
   for (const PartKind kind : { PartKind::Object, PartKind::Cavity })
   {
     const bool isObject = kind == PartKind::Object;
-    const RecoverySurfaces cover = known.Find(kind, 20);
-    EXPECT_EQ(cover.Found, 1);
-    EXPECT_EQ(cover.Enclosed, 1);
-    const SurfaceFeatures features = ComputeFeatures(cover.Surface);
+    const RecoverySurfaces found = ball.Find(kind, 20);
+    EXPECT_EQ(found.Found, 1);
+    EXPECT_EQ(found.Enclosed, 1);
+    const SurfaceFeatures features = ComputeFeatures(found.Surface);
     ASSERT_EQ(features.Components.size(), 1u);
     EXPECT_EQ(features.Genus, 0);
-    // Around it; that of a cavity is turned inside out.
+    // It encloses the part; for a cavity it is inverted.
     EXPECT_GT(
       isObject ? features.Volume : -features.Volume, 4. / 3. * 3.14159 * (isObject ? 64. : 216.));
     const Point& c = features.Components[0].Centroid;
     EXPECT_LT(Distance(c[0], c[1], c[2], isObject ? 40 : 17, 24, 24), 1.);
-    EXPECT_GE(NearestVertex(known.State, cover.Surface), SizingField::LambdaInDelta * Delta);
+    EXPECT_GE(NearestVertex(ball.State, found.Surface), SizingField::LambdaInDelta * Delta);
   }
 }
 
-TEST(MissedParts, LeavesPartsUnderTheMinimumSize)
+TEST(MissedParts, IgnoresPartsBelowMinimumSize)
 {
-  const KnownBall known;
-  // A ball of radius 4 has 257 voxels.
-  EXPECT_EQ(known.Find(PartKind::Object, 250).Found, 1);
-  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image)).Found, 1);
-  EXPECT_EQ(known.Find(PartKind::Object, VoxelsOfTheLostBall(known.Image) + 1).Found, 0);
-  const RecoverySurfaces none = known.Find(PartKind::Object, 265);
+  const EnclosedBall ball;
+  EXPECT_EQ(ball.Find(PartKind::Object, 250).Found, 1);
+  EXPECT_EQ(ball.Find(PartKind::Object, VoxelsOfMissedBall(ball.Image)).Found, 1);
+  EXPECT_EQ(ball.Find(PartKind::Object, VoxelsOfMissedBall(ball.Image) + 1).Found, 0);
+  const RecoverySurfaces none = ball.Find(PartKind::Object, 265);
   EXPECT_EQ(none.Found, 0);
   EXPECT_EQ(none.Enclosed, 0);
   EXPECT_TRUE(none.Surface.Triangles.empty());
 }
 
-TEST(MissedParts, WhatLiesAtTheSurfaceIsNotLost)
+TEST(MissedParts, IgnoresVoxelsAtSurface)
 {
-  // The surface has not quite arrived: a skin of the object is outside of it, or background inside.
+  // The surface is up to 1.2 voxels away from the boundary.
   for (const double radius : { 11.8, 14.2 })
   {
-    const KnownBall known(MakeVolume(48,
+    const EnclosedBall ball(MakeVolume(48,
       [radius](double x, double y, double z)
       { return Soft(Distance(x, y, z, 18, 24, 24) - radius); }));
-    EXPECT_EQ(known.Find(PartKind::Object, 1).Found, 0);
-    EXPECT_EQ(known.Find(PartKind::Cavity, 1).Found, 0);
+    EXPECT_EQ(ball.Find(PartKind::Object, 1).Found, 0);
+    EXPECT_EQ(ball.Find(PartKind::Cavity, 1).Found, 0);
   }
 }
 
-TEST(MissedParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
+TEST(MissedParts, RecoverySurfacesOfNoiseAreValid)
 {
   std::mt19937 random(3);
   for (int round = 0; round < 6; ++round)
   {
-    // Waves of all directions: sheets, tunnels and specks as wide as the lattice's cubes.
+    // Sheets, tunnels and small components as wide as the cubes of the lattice.
     std::uniform_real_distribution<double> phase(0., 6.28), wave(-2.5, 2.5);
     std::array<std::array<double, 4>, 12> waves;
     for (std::array<double, 4>& w : waves)
@@ -162,27 +148,28 @@ TEST(MissedParts, CoversOfNoiseAreManifoldsThatDoNotIntersect)
     state.Reset(Vector(-2, -2, -2), Vector(30, 30, 30));
     for (const RecoveryShape shape : { RecoveryShape::Safe, RecoveryShape::Even })
     {
-      const RecoverySurfaces cover = FindAll(state, field, PartKind::Object, shape);
-      EXPECT_GT(cover.Enclosed, 0);
-      EXPECT_EQ(cover.Enclosed, cover.Found);
-      EXPECT_NO_THROW(SurfaceMesh().Append(cover.Surface)); // Closed, a manifold, oriented.
-      EXPECT_EQ(CountSelfIntersections(cover.Surface), 0);
+      const RecoverySurfaces found =
+        FindMissedParts(state, field, PartKind::Object, 20, shape, Threads);
+      EXPECT_GT(found.Enclosed, 0);
+      EXPECT_EQ(found.Enclosed, found.Found);
+      EXPECT_NO_THROW(SurfaceMesh().Append(found.Surface)) << "closed, manifold, oriented";
+      EXPECT_EQ(CountSelfIntersections(found.Surface), 0);
     }
   }
 }
 
-TEST(MissedParts, BoundaryIsMissedWhereNoVertexIsNear)
+TEST(MissedParts, BoundaryWithoutNearbyVertexIsMissed)
 {
-  KnownBall known;
-  const RecoverySurfaces cover = known.Find(PartKind::Object, 20);
-  const MissedBoundary::Missing before = known.MissedBy(cover.Boundary);
+  EnclosedBall ball;
+  const RecoverySurfaces found = ball.Find(PartKind::Object, 20);
+  const MissedBoundary::Missing before = ball.MissedBy(found.Boundary);
   EXPECT_EQ(before.Parts, 1);
   // Spheres of radius 4 and 13.
   EXPECT_NEAR(before.Share, 16. / (16. + 169.), 0.01);
 
-  known.State.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
-  known.State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
-  const MissedBoundary::Missing after = known.MissedBy(cover.Boundary);
+  ball.State.Mesh.Append(DividedIcosahedron({ 40, 24, 24 }, 4., 1.4 * Delta));
+  ball.State.Reset(Vector(-2, -2, -2), Vector(50, 50, 50));
+  const MissedBoundary::Missing after = ball.MissedBy(found.Boundary);
   EXPECT_EQ(after.Parts, 0);
   EXPECT_EQ(after.Share, 0.);
 }

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Common/Executor.h"
 #include "Core/Evolution/MissedVoxels.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "EvolutionTestTools.h"
@@ -9,12 +8,12 @@ using namespace volumic;
 
 namespace
 {
-/** More voxels in a row than a word has bits, more layers than a batch of one slab has. */
+/** More voxels in a row than bits in a word, more layers than a slab. */
 constexpr int Size = 72;
 constexpr double Centre = 35.6;
 constexpr double Radius = 11.;
 
-/** So many voxels in a hundred, here and there, are of the object. */
+/** Random object voxels. */
 TestVolume Noise(unsigned int percent)
 {
   return MakeVolume(Size,
@@ -36,7 +35,7 @@ void Fill(SurfaceState& state)
   state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
 }
 
-/** What is lost, voxel by voxel. */
+/** Mark the missed voxels by brute force. */
 std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, PartKind kind)
 {
   const VoxelNumbers numbers({ Size, Size, Size });
@@ -66,7 +65,7 @@ std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, P
 
 using Parts = std::vector<std::vector<std::int64_t>>;
 
-/** Sets joined by faces, one after the other, in the order of their first voxels. */
+/** Return the face-connected components, in the order of their first voxels. */
 Parts PartsOf(std::vector<std::uint8_t> marks, std::size_t minimumSize)
 {
   const VoxelNumbers numbers({ Size, Size, Size });
@@ -84,12 +83,12 @@ Parts PartsOf(std::vector<std::uint8_t> marks, std::size_t minimumSize)
     take(first);
     for (std::size_t n = 0; n < part.size(); ++n)
     {
-      const std::array<int, 3> place = numbers.IjkOf(part[n]);
+      const std::array<int, 3> ijk = numbers.IjkOf(part[n]);
       for (int axis = 0; axis < 3; ++axis)
       {
         const std::int64_t voxel = part[n];
-        place[axis] > 0 ? take(voxel - numbers.Stride(axis)) : void();
-        place[axis] + 1 < Size ? take(voxel + numbers.Stride(axis)) : void();
+        ijk[axis] > 0 ? take(voxel - numbers.Stride(axis)) : void();
+        ijk[axis] + 1 < Size ? take(voxel + numbers.Stride(axis)) : void();
       }
     }
     if (!part.empty() && part.size() >= minimumSize)
@@ -115,7 +114,7 @@ Parts PartsOf(const MissedVoxels& missed)
 }
 }
 
-TEST(MissedVoxels, AreThoseOfTheWholeImageInTheSameParts)
+TEST(MissedVoxels, EqualVoxelsAndPartsOfWholeImage)
 {
   SurfaceState state;
   Fill(state);
@@ -143,9 +142,9 @@ TEST(MissedVoxels, AreThoseOfTheWholeImageInTheSameParts)
   }
 }
 
-TEST(MissedVoxels, FormPartsThroughOtherSlabs)
+TEST(MissedVoxels, AreConnectedAcrossSlabs)
 {
-  // A comb: its teeth begin in the first layers and meet in the last.
+  // A comb whose teeth begin in the first layers and meet in the last.
   const TestVolume volume = MakeVolume(Size,
     [](double x, double y, double z)
     { return y == 3 && x < 68 && (z == Size - 1 || static_cast<int>(x) % 4 == 0) ? 1. : 0.; });

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Newton's law with friction, the time step, how far a vertex may go; and the displacements at the
-// end of a level.
+// Friction, time step, maximum displacement and smoothing.
 #include "DynamicsTestTools.h"
 
 using namespace volumic;
 
-TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
+TEST(Motion, ReachesTerminalSpeed)
 {
   for (const double friction : { 1.5, 3., 8. })
   {
@@ -15,7 +14,7 @@ TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
     stage.Options.Friction = friction;
     stage.Options.TensionWeight = 0;
     stage.Options.ElasticityWeight = 0;
-    // Pushed as long as the force is at its bound.
+    // The force is at its bound.
     double step = 0;
     for (int i = 0; i < 10; ++i)
     {
@@ -23,13 +22,13 @@ TEST(Motion, ForceAndFrictionBalanceAtTheFinalSpeed)
       stage.UpdateShape();
     }
     EXPECT_NEAR(stage.MeanSpeedOutward(), -1 / friction, 0.02 / friction);
-    EXPECT_NEAR(step, 0.5 * friction, 1e-5) << "in a step, the largest displacement";
+    EXPECT_NEAR(step, 0.5 * friction, 1e-5) << "maximum displacement in a step";
   }
 }
 
-TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
+TEST(Motion, RespectsMaximumStep)
 {
-  // Contacts may have made it faster than what the step was chosen for.
+  // Contacts can increase velocities after the step has been chosen.
   for (const double largest : { 0.5, 0.2 })
   {
     Stage stage(12.);
@@ -41,40 +40,39 @@ TEST(Motion, NoVertexGoesFurtherThanTheLargestStep)
     stage.State.Velocity[3] *= 100.f;
     stage.State.Velocity[4] *= 0.1f;
     const LargeVector<Vector> before = stage.State.Mesh.Position;
-    stage.State.PreviousPosition.Fill(Vector()); // Of long ago.
+    stage.State.PreviousPosition.Fill(Vector());
     dynamics.Displace(stage.State, stage.All, step);
     for (int v : stage.All)
     {
-      const Vector way = stage.State.Mesh.Position[v] - before[v];
+      const Vector motion = stage.State.Mesh.Position[v] - before[v];
       const double speed = Length(stage.State.Velocity[v]);
-      EXPECT_NEAR(Length(way), std::min(speed * static_cast<double>(step.Time), largest), 1e-5);
-      EXPECT_GT(Dot(way, stage.State.Velocity[v]), 0);
-      EXPECT_NEAR(stage.State.Displacement[v], Length(way), 1e-5);
-      EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0) << "to go back to";
+      EXPECT_NEAR(Length(motion), std::min(speed * static_cast<double>(step.Time), largest), 1e-5);
+      EXPECT_GT(Dot(motion, stage.State.Velocity[v]), 0);
+      EXPECT_NEAR(stage.State.Displacement[v], Length(motion), 1e-5);
+      EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0);
     }
   }
 }
 
 namespace
 {
-/** A sphere of radius 8 whose vertices have been moved along it. */
+/** Sphere of radius 8 with tangentially displaced vertices. */
 struct Shaken : Stage
 {
-  Shaken()
-    : Stage(8.)
+  Shaken() : Stage(8.)
   {
     for (int v : this->All)
     {
-      const Vector way(0.1f * (v % 3 - 1), 0.07f * (v % 5 - 2), 0.05f * (v % 4 - 1));
+      const Vector shift(0.1f * (v % 3 - 1), 0.07f * (v % 5 - 2), 0.05f * (v % 4 - 1));
       const Vector n = this->OutwardAt(v);
-      this->State.Mesh.Position[v] += way - n * Dot(way, n);
+      this->State.Mesh.Position[v] += shift - n * Dot(shift, n);
     }
     this->UpdateShape();
   }
 };
 }
 
-TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
+TEST(Smoothing, MovesTangentiallyToBarycentre)
 {
   Shaken stage;
   stage.Relax(false);
@@ -83,9 +81,9 @@ TEST(Smoothing, GoesAlongTheSurfaceToTheBarycentre)
   {
     const Vector& move = stage.State.Velocity[v];
     const Vector n = stage.State.Normal[v].Axis();
-    EXPECT_NEAR(Dot(move, n), 0, 1e-5) << "it would shrink";
+    EXPECT_NEAR(Dot(move, n), 0, 1e-5) << "tangential";
     along += Dot(move, stage.State.Laplacian[v]);
-    EXPECT_LE(Length(move), 0.15 + 1e-5) << "little enough to stay free of intersections";
+    EXPECT_LE(Length(move), 0.15 + 1e-5) << "small enough to avoid intersections";
   }
   EXPECT_GT(along / static_cast<double>(stage.All.size()), 0.002);
 }

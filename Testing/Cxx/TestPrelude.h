@@ -3,10 +3,7 @@
 #ifndef volumicTestPrelude_h
 #define volumicTestPrelude_h
 
-/**
- * What nearly every test needs. Tests and their tools include it instead of these, and do not
- * include again what their tools include.
- */
+/** Common includes of all tests. */
 
 #include <gtest/gtest.h>
 
@@ -31,7 +28,7 @@
 
 namespace volumic
 {
-/** Whether a text has a part; an expectation that fails shows both. */
+/** Whether a text contains a part. A failing expectation prints both. */
 inline ::testing::AssertionResult Has(const std::string& text, const std::string& part)
 {
   return text.find(part) != std::string::npos
@@ -39,13 +36,13 @@ inline ::testing::AssertionResult Has(const std::string& text, const std::string
     : ::testing::AssertionFailure() << "no `" << part << "` in: " << text;
 }
 
-/** What work says as it refuses an argument; nothing where it takes it. */
-template <typename Work>
-std::string ErrorMessageOf(const Work& work)
+/** Return the message of the std::invalid_argument that a function throws; empty if none. */
+template <typename Function>
+std::string ErrorMessageOf(const Function& function)
 {
   try
   {
-    work();
+    function();
     return "";
   }
   catch (const std::invalid_argument& error)

@@ -8,14 +8,14 @@ using namespace volumic;
 TEST(PyramidGeometry, SizesFollowEquation4)
 {
   const auto levels = PlanPyramid({ 256, 256, 68 }, { 1, 1, 1.0625 }, {});
-  ASSERT_EQ(levels.size(), 4u) << "68 -> 39 -> 22 -> 12, and 6 would be under MinimumLevelSize";
+  ASSERT_EQ(levels.size(), 4u) << "68, 39, 22, 12; 6 is below MinimumLevelSize";
   EXPECT_EQ(levels[0].Size, (LevelSize{ 256, 256, 68 }));
   EXPECT_EQ(levels[1].Size, (LevelSize{ 147, 147, 39 }));
   EXPECT_EQ(levels[2].Size, (LevelSize{ 84, 84, 22 }));
   EXPECT_EQ(levels[3].Size, (LevelSize{ 48, 48, 12 }));
 }
 
-TEST(PyramidGeometry, AutomaticStopsBeforeALevelUnderTheMinimumSize)
+TEST(PyramidGeometry, AutomaticLevelsRespectMinimumSize)
 {
   PyramidOptions options;
   options.MinimumLevelSize = 22;
@@ -24,7 +24,7 @@ TEST(PyramidGeometry, AutomaticStopsBeforeALevelUnderTheMinimumSize)
   EXPECT_EQ(PlanPyramid({ 256, 256, 68 }, { 1, 1, 1 }, options).size(), 2u);
 }
 
-TEST(PyramidGeometry, SizesBeyond32BitsWorkAsNumbersDo)
+TEST(PyramidGeometry, SupportsSizesBeyond32Bits)
 {
   const auto levels = PlanPyramid({ 2000000, 3000, 4000 }, { 1, 1, 1 }, {});
   EXPECT_EQ(levels[0].NumberOfVoxels(), 24000000000000LL);
@@ -32,11 +32,11 @@ TEST(PyramidGeometry, SizesBeyond32BitsWorkAsNumbersDo)
   EXPECT_EQ(levels[1].NumberOfVoxels(), 1154700LL * 1732 * 2309);
 }
 
-TEST(PyramidGeometry, RefusesWhatMakesNoPyramid)
+TEST(PyramidGeometry, RejectsInvalidOptions)
 {
   struct Case
   {
-    const char* Message; ///< empty: it makes one
+    const char* Message; ///< empty: valid
     PyramidOptions Options;
     LevelSize Size = { 64, 64, 64 };
     std::array<double, 3> Spacing = { 1, 1, 1 };
@@ -57,9 +57,9 @@ TEST(PyramidGeometry, RefusesWhatMakesNoPyramid)
       Case{ "Minimum Level Size is 0", with(1.5, 0, 0) }, Case{ "empty", {}, { 0, 4, 4 } },
       Case{ "axis y", {}, { 4, 4, 4 }, { 1, 0, 1 } }, Case{ "", {}, { 4, 1, 4 }, { 1, 0, 1 } } })
   {
-    const std::string refusal =
+    const std::string error =
       ErrorMessageOf([&] { PlanPyramid(test.Size, test.Spacing, test.Options); });
-    EXPECT_TRUE(Has(refusal, test.Message));
-    EXPECT_EQ(refusal.empty(), std::string(test.Message).empty()) << refusal;
+    EXPECT_TRUE(Has(error, test.Message));
+    EXPECT_EQ(error.empty(), std::string(test.Message).empty()) << error;
   }
 }

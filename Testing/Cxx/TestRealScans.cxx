@@ -1,21 +1,18 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The surface on real scans, at every level. What must always hold is asserted as it is. Bounds of
-// qualities are what is reached, with a small margin.
+// Surfaces of real scans at all levels. Quality bounds are measured values with a small margin.
 #include "SupportVtkConversions.h"
-#include "TestPrelude.h"
-#include "vtkDeformableSurface.h"
+#include "SurfaceTestTools.h"
 
 #include <vtkImageCast.h>
 #include <vtkImageConstantPad.h>
-#include <vtkMultiBlockDataSet.h>
-#include <vtkStringArray.h>
 #include <vtkXMLImageDataReader.h>
 
 #include <cstdlib>
 #include <fstream>
 
+using namespace volumic;
 using namespace volumic::support;
 
 namespace
@@ -25,24 +22,13 @@ struct Scan
   const char* Name;
   std::string File;
   double IsoValue;
-  double LeastReach;      ///< share of the boundary that air reaches and the surface must reach too
-  double LargestDistance; ///< to the isopotential, mean over the vertices, voxels
-  double LeastRatio = 0.7; ///< radius ratio of the worst triangle of all levels
-  double Tolerance = 0.0;  ///< of a graded surface, world units
+  double MinimumReach;       ///< ReachVerdict::Share
+  double MaximumDistance;    ///< mean distance of vertices to the isosurface, voxels
+  double MinimumRatio = 0.7; ///< radius ratio of all triangles
+  double Tolerance = 0.0;    ///< of graded surfaces, world units
 };
 
 const std::string Shared = VOLUMIC_SHARED_DATA;
-
-double FieldOf(vtkPolyData* surface, const char* name)
-{
-  return surface->GetFieldData()->GetArray(name)->GetComponent(0, 0);
-}
-
-std::string StopReason(vtkPolyData* surface)
-{
-  return vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"))
-    ->GetValue(0);
-}
 
 vtkSmartPointer<vtkImageData> Read(const std::string& file)
 {
@@ -54,7 +40,7 @@ vtkSmartPointer<vtkImageData> Read(const std::string& file)
 
 class RealScans : public ::testing::TestWithParam<Scan>
 {
-  /** A missing scan is a failure in continuous integration (.ci/run), else the test is skipped. */
+  /** Skip the test without the scan; fail in continuous integration. */
   void SetUp() override
   {
     const std::string& file = GetParam().File;
@@ -67,7 +53,7 @@ class RealScans : public ::testing::TestWithParam<Scan>
 };
 }
 
-TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
+TEST_P(RealScans, GiveValidSurfacesAtAllLevels)
 {
   const Scan& scan = GetParam();
   const vtkSmartPointer<vtkImageData> image = Read(scan.File);
@@ -86,7 +72,7 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
     ASSERT_TRUE(surface);
     if (surface->GetNumberOfPoints() == 0)
     {
-      // Too thin for the coarsest level; a finer one must have found it.
+      // The object is too thin for the coarsest level.
       EXPECT_GT(h, 0u);
       EXPECT_EQ(StopReason(surface), "vanished");
       continue;
@@ -101,13 +87,13 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
     const ShapeVerdict shapes = JudgeShapes(inWorld);
     EXPECT_GT(shapes.Mean, 0.95);
     EXPECT_GT(shapes.Quantile01, 0.8);
-    EXPECT_GT(shapes.Least, scan.LeastRatio);
+    EXPECT_GT(shapes.Least, scan.MinimumRatio);
   }
 
   vtkPolyData* finest = filter->GetOutput();
   EXPECT_EQ(FieldOf(finest, "Level"), 0);
   EXPECT_EQ(StopReason(finest), "converged");
-  // Where the object is cut by the border the surface closes it a fraction of a voxel outside.
+  // At the border of the image the surface is a fraction of a voxel outside.
   vtkNew<vtkImageConstantPad> pad;
   pad->SetInputData(image);
   const int* extent = image->GetExtent();
@@ -127,8 +113,8 @@ TEST_P(RealScans, GiveATrustworthySurfaceAtEveryLevel)
   }
   volume.IsoValue = scan.IsoValue;
   const TriangleSurface indexed = ToTriangleSurface(finest, padded);
-  EXPECT_GT(JudgeReach(indexed, volume).Share, scan.LeastReach);
-  EXPECT_LT(JudgeIsoDistance(indexed, volume).MeanAtVertices, scan.LargestDistance);
+  EXPECT_GT(JudgeReach(indexed, volume).Share, scan.MinimumReach);
+  EXPECT_LT(JudgeIsoDistance(indexed, volume).MeanAtVertices, scan.MaximumDistance);
   filter->SetFinestLevel(1);
   filter->SetKeepComponentsToLargestComponent();
   filter->Update();

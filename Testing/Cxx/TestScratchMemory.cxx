@@ -10,7 +10,7 @@ namespace
 {
 constexpr std::size_t n = ScratchMemory::LargeBytes;
 
-/** Whether an array lies in a file of a directory, as the system sees it. */
+/** Whether the system maps an array to a file of a directory. */
 bool IsIn(const TemporaryFolder& folder, const LargeVector<char>& array)
 {
   const auto address = reinterpret_cast<std::uintptr_t>(array.data());
@@ -29,7 +29,7 @@ bool IsIn(const TemporaryFolder& folder, const LargeVector<char>& array)
 }
 }
 
-TEST(ScratchMemory, PutsLargeArraysIntoFilesWithoutAName)
+TEST(ScratchMemory, StoresLargeArraysInUnnamedFiles)
 {
   const TemporaryFolder folder;
   const TemporaryFolder other;
@@ -51,14 +51,14 @@ TEST(ScratchMemory, PutsLargeArraysIntoFilesWithoutAName)
     EXPECT_TRUE(IsIn(folder, LargeVector<char>(n)));
     EXPECT_TRUE(folder.Names().empty() && other.Names().empty());
   }
-  EXPECT_TRUE(IsIn(folder, large)) << "it outlives the object";
+  EXPECT_TRUE(IsIn(folder, large)) << "arrays outlive the object";
   EXPECT_EQ(large.back(), 'x');
   const LargeVector<char> copy = large;
   EXPECT_FALSE(IsIn(folder, copy));
   EXPECT_EQ(copy, large);
 }
 
-TEST(ScratchMemory, ReservesSpaceOnTheDisk)
+TEST(ScratchMemory, ReservesDiskSpace)
 {
   const TemporaryFolder folder;
   const ScratchMemory scratch(folder.Path());
@@ -83,17 +83,17 @@ TEST(ScratchMemory, ReservesSpaceOnTheDisk)
   EXPECT_EQ(allocate(2 * n), "");
 }
 
-TEST(ScratchMemory, MakesRoomBeforehand)
+TEST(ScratchMemory, ReservesCapacity)
 {
   LargeVector<Vector> values;
   MakeRoom(values, n);
   values.resize(n);
-  const Vector* const place = values.data();
+  const Vector* const data = values.data();
   values[n - 1].X = 1.f;
   values.resize(2 * n);
-  EXPECT_EQ(values.data(), place);
+  EXPECT_EQ(values.data(), data);
   MakeRoom(values, 3 * n);
-  EXPECT_EQ(values.size(), 2 * n) << "there is room already";
+  EXPECT_EQ(values.size(), 2 * n) << "the capacity suffices";
   EXPECT_EQ(values[n - 1].X, 1.f);
   MakeRoom(values, 3 * n + 1);
   EXPECT_TRUE(values.empty());

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What an evolution hands over, and what it starts from.
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -20,7 +19,7 @@ double MeanResidual(const SurfaceResult& surface)
 }
 }
 
-TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
+TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
 {
   const TestVolume volume = BallVolume(28, 8);
   double residual[2] = { 0, 0 };
@@ -42,15 +41,15 @@ TEST(SurfaceResult, LiesOnTheIsopotentialMoreExactlyWhereItIsSnapped)
   EXPECT_GT(residual[false], 2 * residual[true]);
 }
 
-TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
+TEST(SurfaceResult, LiesOnGivenEdges)
 {
-  // The edge is half a voxel inside the isopotential: not to be left for it at the end.
+  // The edge is one voxel inside the isosurface. Snapping must not leave it.
   TestVolume volume = BallVolume(28, 8);
   const TestVolume map = MakeVolume(28,
     [](double x, double y, double z)
     {
-      const double way = Distance(x, y, z, 14, 14, 14) - 7.;
-      return std::exp(-0.5 * way * way);
+      const double r = Distance(x, y, z, 14, 14, 14) - 7.;
+      return std::exp(-0.5 * r * r);
     });
   volume.Image.Edges = map.Values.data();
   SurfaceOptions options = IsoHalf();
@@ -67,7 +66,7 @@ TEST(SurfaceResult, LiesOnTheEdgesWhereTheyAreGiven)
   EXPECT_NEAR(radius, 7, 0.08);
 }
 
-TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
+TEST(SurfaceStart, SeedsHaveRequestedRadiusWithLowerBound)
 {
   const TestVolume volume = BallVolume(40, 16);
   for (const double radius : { 0., 0.1, 2., 5. })
@@ -85,7 +84,7 @@ TEST(SurfaceStart, SeedsAreOfTheirRadiusButNeverTooSmallForTheEdges)
   }
 }
 
-TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
+TEST(SurfaceEvolutionInvalid, RejectsOptionsOutOfRange)
 {
   struct Case
   {
@@ -110,8 +109,8 @@ TEST(SurfaceEvolutionInvalid, RefusesEveryOptionOutsideItsRange)
     {
       SurfaceOptions options = IsoHalf();
       options.*c.Option = value;
-      const std::string refusal = ErrorMessageOf([&] { CheckOptions(options); });
-      EXPECT_EQ(refusal.find(c.Name), 0u) << c.Name << " " << value << ": " << refusal;
+      const std::string error = ErrorMessageOf([&] { CheckOptions(options); });
+      EXPECT_EQ(error.find(c.Name), 0u) << c.Name << " " << value << ": " << error;
     }
   }
 }

@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The acceptance of the deformable surface: scenes whose components and genus are known, segmented
-// through the VTK class, judged by the judge that shares no code with it.
+// Acceptance scenes of vtkDeformableSurface with known topology, tested by an independent judge.
 #include "SupportVtkConversions.h"
 #include "SurfaceTestTools.h"
-
 
 #include <tuple>
 
@@ -22,14 +20,14 @@ vtkSmartPointer<vtkDeformableSurface> Segment(vtkImageData* image, const Scene& 
   return filter;
 }
 
-/** In the space that the constraints speak of: the world, or index coordinates. */
+/** Return the surface in computational space: world or index coordinates. */
 TriangleSurface InMetric(vtkPolyData* surface, vtkImageData* image, int metric)
 {
   return metric == vtkDeformableSurface::World ? ToTriangleSurface(surface)
                                                : ToTriangleSurface(surface, image);
 }
 
-/** The invariants that hold for every surface that is handed out, of any level. */
+/** Expect the guarantees of output surfaces. */
 void ExpectInvariants(
   vtkPolyData* surface, vtkImageData* image, int metric, const std::string& where)
 {
@@ -46,7 +44,6 @@ void ExpectInvariants(
   EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u) << where;
   EXPECT_EQ(verdict.Lengths.EdgesTooLong, 0u) << where << "\n" << Describe(verdict);
   EXPECT_EQ(verdict.Lengths.EdgesTooShort, 0u) << where << "\n" << Describe(verdict);
-  // The judge and the filter count the same.
   EXPECT_EQ(verdict.Topology.EulerCharacteristic, FieldOf(surface, "EulerCharacteristic")) << where;
   EXPECT_EQ(verdict.Topology.Genus, FieldOf(surface, "Genus")) << where;
   EXPECT_EQ(verdict.Topology.Components.size(), FieldOf(surface, "NumberOfComponents")) << where;
@@ -75,8 +72,8 @@ void ExpectTopology(vtkDeformableSurface* filter, const Scene& scene)
   EXPECT_EQ(StopReason(surface), "converged");
 }
 
-/** How a scene is sampled and segmented. */
-struct Way
+/** Sampling and segmentation of a scene. */
+struct Variant
 {
   const char* Name;
   double NoiseShare = 0.0;
@@ -86,27 +83,25 @@ struct Way
   int Metric = vtkDeformableSurface::World;
 };
 
-class SurfaceOfScene : public ::testing::TestWithParam<std::tuple<SceneKind, Way>>
+class SurfaceOfScene : public ::testing::TestWithParam<std::tuple<SceneKind, Variant>>
 {
 };
 }
 
-TEST_P(SurfaceOfScene, HasItsTopologyAndKeepsTheInvariants)
+TEST_P(SurfaceOfScene, HasCorrectTopologyAndIsValid)
 {
-  const auto& [kind, way] = GetParam();
+  const auto& [kind, variant] = GetParam();
   SceneOptions options;
-  options.NoiseShare = way.NoiseShare;
-  // A wall of two voxels has a real hole in some noises (in four of ten that were tried), which the
-  // surface rightly finds; in this one it has none.
+  options.NoiseShare = variant.NoiseShare;
+  // For some seeds, noise makes a real hole in the wall of two voxels.
   options.NoiseSeed = 4;
-  options.ObjectIsBright = way.ObjectIsBright;
-  options.Spacing[2] = way.SliceSpacing;
+  options.ObjectIsBright = variant.ObjectIsBright;
+  options.Spacing[2] = variant.SliceSpacing;
   const Scene scene = MakeScene(kind, options);
   const auto image = ToImage(scene);
   const auto filter = Segment(image, scene);
-  filter->SetMetric(way.Metric);
-  // What a scene says of its coarse levels is known for cubic voxels; a thin wall vanishes above.
-  filter->SetCoarsestLevel(way.WithPyramid ? scene.CoarsestFaithfulLevel : 0);
+  filter->SetMetric(variant.Metric);
+  filter->SetCoarsestLevel(variant.WithPyramid ? scene.CoarsestFaithfulLevel : 0);
   filter->Update();
   ExpectTopology(filter, scene);
   ExpectInvariantsAtEveryLevel(filter, image);
@@ -114,14 +109,14 @@ TEST_P(SurfaceOfScene, HasItsTopologyAndKeepsTheInvariants)
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SurfaceOfScene,
   ::testing::Combine(::testing::ValuesIn(SceneKindsReachableFromOutside()),
-    ::testing::Values(Way{ "Clean" }, Way{ "CleanWithoutPyramid", 0.0, false },
-      Way{ "Noisy", 0.2 }, Way{ "NoisyWithoutPyramid", 0.2, false }, Way{ "Dark", 0.0, true, false },
-      Way{ "LongVoxels", 0.0, true, true, 2.5 },
-      Way{ "LongVoxelsInTheirMetric", 0.0, true, true, 2.5, vtkDeformableSurface::Voxels })),
-  [](const ::testing::TestParamInfo<std::tuple<SceneKind, Way>>& info)
+    ::testing::Values(Variant{ "Clean" }, Variant{ "CleanWithoutPyramid", 0.0, false },
+      Variant{ "Noisy", 0.2 }, Variant{ "NoisyWithoutPyramid", 0.2, false },
+      Variant{ "Dark", 0.0, true, false }, Variant{ "LongVoxels", 0.0, true, true, 2.5 },
+      Variant{ "LongVoxelsInTheirMetric", 0.0, true, true, 2.5, vtkDeformableSurface::Voxels })),
+  [](const ::testing::TestParamInfo<std::tuple<SceneKind, Variant>>& info)
   { return SceneName(std::get<0>(info.param)) + std::get<1>(info.param).Name; });
 
-TEST(SurfaceScenes, SeedsMergeToOneSurface)
+TEST(SurfaceScenes, SeedsMergeIntoOneSurface)
 {
   for (const SceneKind kind : { SceneKind::FourBubbles, SceneKind::TorusOfTwoBubbles })
   {
@@ -139,7 +134,7 @@ TEST(SurfaceScenes, SeedsMergeToOneSurface)
   }
 }
 
-TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
+TEST(SurfaceScenes, SnapshotsAreValid)
 {
   for (const SceneKind kind :
     { SceneKind::Torus, SceneKind::NestedBalls, SceneKind::ThinShellWithEightHoles })
@@ -164,7 +159,7 @@ TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
         const TopologyVerdict topology = JudgeTopology(judged);
         EXPECT_TRUE(topology.Closed && topology.Manifold && topology.Oriented);
         EXPECT_EQ(JudgeIntersections(judged).Pairs, 0u);
-        // Eq. (1), but for edges whose split would make a needle: these get no longer (HugeEdge).
+        // Eq. (1), except for edges whose split would make a needle (HugeEdge).
         const double delta = FieldOf(surface, "Delta");
         const LengthVerdict lengths = JudgeLengths(judged, delta);
         EXPECT_LE(lengths.Longest, 1.4 * 2.5 * delta);
@@ -174,7 +169,7 @@ TEST(SurfaceScenes, NoStateOnTheWayIntersectsItself)
   }
 }
 
-TEST(SurfaceScenes, TheJudgeSeesHolesAndIntersections)
+TEST(SurfaceScenes, JudgeDetectsHolesAndIntersections)
 {
   TriangleSurface surface;
   surface.Points = { { 0, 0, 0 }, { 2, 0, 0 }, { 0, 2, 0 }, { 0, 0, 2 } };
@@ -184,6 +179,6 @@ TEST(SurfaceScenes, TheJudgeSeesHolesAndIntersections)
   surface.Points.insert(
     surface.Points.end(), { { 0.4, 0.4, -1 }, { 0.5, 0.4, 1 }, { 0.4, 0.5, 1 } });
   surface.Triangles.push_back({ 4, 5, 6 });
-  EXPECT_EQ(JudgeIntersections(surface).Pairs, 1u) << "it pierces the bottom";
+  EXPECT_EQ(JudgeIntersections(surface).Pairs, 1u) << "intersection with the bottom";
   EXPECT_FALSE(JudgeTopology(surface).Closed);
 }

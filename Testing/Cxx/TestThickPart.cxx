@@ -12,15 +12,15 @@ constexpr std::array<int, 3> Size = { 12, 11, 10 };
 
 using Voxels = std::function<bool(int, int, int)>;
 
-/** Whether the voxels have a part of so many, in cubes of a side. */
+/** Whether a part has at least so many voxels in cubes of a side. */
 bool HasPart(const Voxels& isObject, int minimum, int side)
 {
   const VoxelNumbers numbers(Size);
   return HasThickPart(
     [&](std::int64_t voxel)
     {
-      const std::array<int, 3> place = numbers.IjkOf(voxel);
-      return isObject(place[0], place[1], place[2]);
+      const std::array<int, 3> ijk = numbers.IjkOf(voxel);
+      return isObject(ijk[0], ijk[1], ijk[2]);
     },
     Size, { minimum, side });
 }
@@ -31,13 +31,13 @@ bool IsIn(int x, int low, int high)
 }
 }
 
-TEST(ThickPart, HasAsManyVoxelsAsItsLargestPart)
+TEST(ThickPart, HasSizeOfLargestThickPart)
 {
   struct Case
   {
     const char* Name;
     Voxels IsObject;
-    int Thick; ///< voxels of cubes of 2 x 2 x 2; 0: none
+    int Thick; ///< voxels in cubes of 2 x 2 x 2; 0: none
     int All;
   };
   for (const Case& test :
@@ -48,7 +48,7 @@ TEST(ThickPart, HasAsManyVoxelsAsItsLargestPart)
       Case{ "cube with a wire",
         [](int i, int j, int k) { return (IsIn(i, 0, 1) && j < 2 && k < 2) || (j == 0 && k == 0); },
         8, 18 },
-      Case{ "plate, and a wire at a corner of it",
+      Case{ "plate and wire at a corner",
         [](int i, int j, int k)
         { return i == 11 || (i == 10 && j == 0 && k == 0) || (i == 9 && j == 1); },
         0, 111 },
@@ -56,11 +56,11 @@ TEST(ThickPart, HasAsManyVoxelsAsItsLargestPart)
         [](int i, int j, int k)
         { return IsIn(j, 2, 3) && IsIn(k, 2, 3) && (IsIn(i, 0, 3) || IsIn(i, 6, 9)); },
         16, 16 },
-      Case{ "two arms and what joins them",
+      Case{ "two connected arms",
         [](int i, int j, int k)
         { return IsIn(j, 2, 3) && IsIn(k, 1, 8) && IsIn(i, 4, 9) && (k < 3 || k > 6 || i > 7); },
         64, 64 },
-      Case{ "ends of rows that are one after the other",
+      Case{ "ends of consecutive rows",
         [](int i, int j, int k)
         { return (i >= 10 && j <= 1 && k <= 1) || (i <= 1 && IsIn(j, 1, 2) && k <= 1); },
         8, 8 } })

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The last look at a surface: it finds whatever intersects, and the surface gets another mesh.
+// Final test of a surface for intersections, and repair by remeshing.
 #include "Core/Mesh/SelfIntersections.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/NewFaces.h"
@@ -18,7 +18,7 @@ std::size_t CountIn(const Bench& bench)
   return CountIntersecting(bench.State, threads);
 }
 
-/** Pulls a vertex through the other side. */
+/** Pull a vertex through the opposite side. */
 void Pierce(SurfaceState& state)
 {
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -33,8 +33,8 @@ void Pierce(SurfaceState& state)
   }
 }
 
-/** Says stop, or not, once a surface has been pierced. */
-class Intruder final : public Monitor
+/** Optionally cancels after the surface has been pierced. */
+class PierceMonitor final : public Monitor
 {
 public:
   bool CanContinue = true;
@@ -51,9 +51,9 @@ SurfaceOptions TwentyIterations()
 }
 }
 
-TEST(Verification, FindsSheetsThatFaceTheSameWay)
+TEST(Verification, DetectsIntersectionsOfParallelSheets)
 {
-  // The second ball is moved by less than an edge: nowhere are normals opposed that are near.
+  // Nearby normals are never opposite: the balls are shifted by less than an edge.
   Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
   Bench other(DividedIcosahedron({ 0.3, 0, 0 }, 10, 1.6));
   Proximity proximity;
@@ -64,15 +64,15 @@ TEST(Verification, FindsSheetsThatFaceTheSameWay)
   }
   bench.UpdateShape();
   proximity.Test(bench.State, bench.All(), OnThisThread());
-  EXPECT_TRUE(proximity.Intersections().empty()) << "which is why there is a last look";
+  EXPECT_TRUE(proximity.Intersections().empty()) << "not found by the proximity test";
   EXPECT_GT(CountIn(bench), 0u);
 }
 
-TEST(Verification, AgreesWithTheTreeOfTriangles)
+TEST(Verification, AgreesWithTriangleTree)
 {
-  // From places where nothing intersects to such where much does.
+  // From no intersection to many.
   std::mt19937 engine(27);
-  std::uniform_real_distribution<float> way(-1.f, 1.f);
+  std::uniform_real_distribution<float> shift(-1.f, 1.f);
   int intersecting = 0;
   for (int scene = 0; scene < 60; ++scene)
   {
@@ -80,8 +80,8 @@ TEST(Verification, AgreesWithTheTreeOfTriangles)
     const float most = 0.02f * static_cast<float>(scene);
     for (const int v : bench.All())
     {
-      bench.State.MoveTo(
-        v, bench.State.Mesh.Position[v] + Vector(way(engine), way(engine), way(engine)) * most);
+      bench.State.MoveTo(v,
+        bench.State.Mesh.Position[v] + Vector(shift(engine), shift(engine), shift(engine)) * most);
     }
     bench.UpdateShape();
     const bool found = CountSelfIntersections(bench.State.Mesh.ToIndexed(), 1) > 0;
@@ -92,7 +92,7 @@ TEST(Verification, AgreesWithTheTreeOfTriangles)
   EXPECT_LT(intersecting, 50);
 }
 
-TEST(Verification, TheEndOfALevelIsMended)
+TEST(Verification, RepairsSurfaceOfLevel)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
@@ -101,35 +101,36 @@ TEST(Verification, TheEndOfALevelIsMended)
   undisturbed.Run();
   EXPECT_EQ(undisturbed.Verified().Found, 0);
   const double requested = ComputeFeatures(undisturbed.Result()).Volume;
-  for (const bool goesOn : { true, false })
+  for (const bool canContinue : { true, false })
   {
-    Intruder intruder;
-    intruder.CanContinue = goesOn;
-    TestEvolution evolution(TwentyIterations(), Threads, intruder);
+    PierceMonitor monitor;
+    monitor.CanContinue = canContinue;
+    TestEvolution evolution(TwentyIterations(), Threads, monitor);
     evolution.AfterSweep = [&]
     {
-      intruder.HasPierced = evolution.Iterations() == 20;
-      if (intruder.HasPierced)
+      monitor.HasPierced = evolution.Iterations() == 20;
+      if (monitor.HasPierced)
       {
         Pierce(evolution.Now->State);
       }
     };
     evolution.StartEnclosing(volume.Image, 0);
-    EXPECT_EQ(evolution.Run(), goesOn ? StopReason::IterationLimit : StopReason::Cancelled);
+    EXPECT_EQ(evolution.Run(), canContinue ? StopReason::IterationLimit : StopReason::Cancelled);
     EXPECT_GT(evolution.Verified().Found, 0);
     EXPECT_EQ(evolution.Verified().Left, 0);
     EXPECT_TRUE(Has(evolution.Verified().Describe(3), "level 3 intersected itself at "));
     EXPECT_TRUE(Has(evolution.Verified().Describe(3), "another mesh"));
-    EXPECT_EQ(evolution.IsStopped(), !goesOn) << "mending does not ask";
+    EXPECT_EQ(evolution.IsStopped(), !canContinue) << "the repair is not cancelled";
     const SurfaceResult surface = evolution.Result();
     EXPECT_EQ(CountSelfIntersections(surface), 0);
     const SurfaceFeatures features = ComputeFeatures(surface);
-    EXPECT_LE(features.EulerCharacteristic, 2) << "what was pulled through may leave a handle";
-    EXPECT_NEAR(features.Volume, requested, 0.1 * requested) << "one that is stopped does not snap";
+    EXPECT_LE(features.EulerCharacteristic, 2) << "the repair may add a handle";
+    EXPECT_NEAR(features.Volume, requested, 0.1 * requested)
+      << "cancelled surfaces are not snapped";
   }
 }
 
-TEST(Verification, NoSnapshotIntersectsItself)
+TEST(Verification, OmitsIntersectingSnapshots)
 {
   const TestVolume volume = BallVolume(32, 10);
   Monitor silent;
@@ -147,18 +148,18 @@ TEST(Verification, NoSnapshotIntersectsItself)
   evolution.Run();
   ASSERT_EQ(points.size(), 4u);
   EXPECT_GT(*std::min_element(points.begin(), points.end() - 1), 0u);
-  EXPECT_EQ(points.back(), 0u) << "it is left out";
+  EXPECT_EQ(points.back(), 0u) << "omitted";
 }
 
-TEST(Verification, WhatCannotBeMendedIsTold)
+TEST(Verification, ReportsUnrepairableSurface)
 {
   const TestVolume volume = BallVolume(32, 10);
-  Intruder intruder;
-  intruder.CanContinue = false;
-  TestEvolution evolution(TwentyIterations(), Threads, intruder);
+  PierceMonitor monitor;
+  monitor.CanContinue = false;
+  TestEvolution evolution(TwentyIterations(), Threads, monitor);
   evolution.AfterSweep = [&]
   {
-    intruder.HasPierced = true;
+    monitor.HasPierced = true;
     SurfaceState& state = evolution.Now->State;
     for (int v = 0; v < state.Mesh.Size(); ++v)
     {
@@ -175,5 +176,5 @@ TEST(Verification, WhatCannotBeMendedIsTold)
   EXPECT_GT(evolution.Verified().Found, 0);
   EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
   EXPECT_TRUE(Has(evolution.Verified().Describe(0), "could not be mended"));
-  EXPECT_FALSE(evolution.Result().Points.empty()) << "it is handed over as it is";
+  EXPECT_FALSE(evolution.Result().Points.empty()) << "returned unrepaired";
 }

@@ -9,7 +9,7 @@ using namespace volumic;
 
 namespace
 {
-/** Bases that are floats, and bases that are not. */
+/** Bases with and without an exact float. */
 constexpr double Bases[] = { 0., 226.5, -1024., 1. / 3., 1150.1, 4e-5, 1e-30, 70000.0000001,
   0x1.000002p-9, -0x1.fffffep-15, 1e12 };
 
@@ -20,14 +20,14 @@ std::uint32_t Bits(float value)
   return bits;
 }
 
-/** What voxels were converted to, one after the other, when levels were copied. */
+/** Reference conversion of a voxel. */
 template <typename T>
 float Converted(T voxel, double base)
 {
   return static_cast<float>(static_cast<double>(voxel) - base);
 }
 
-/** Any numbers of the type, the extreme ones too; of wide types such that a double keeps apart. */
+/** Return random voxels with the extreme values of the type, limited to +-1e9. */
 template <typename T>
 std::vector<T> AnyVoxels(std::size_t count)
 {
@@ -55,10 +55,10 @@ using VoxelTypes = testing::Types<char, signed char, unsigned char, short, unsig
 TYPED_TEST_SUITE(VoxelValuesOfType, VoxelTypes);
 }
 
-TYPED_TEST(VoxelValuesOfType, AreTheBitsOfAConversion)
+TYPED_TEST(VoxelValuesOfType, EqualConvertedVoxels)
 {
   using T = TypeParam;
-  // Of 8 and 16 bits all numbers; of floats the difference is taken in double.
+  // All values of types with 8 and 16 bits.
   std::vector<T> voxels = AnyVoxels<T>(1 << 16);
   for (std::size_t i = 0; i < voxels.size() && sizeof(T) <= 2; ++i)
   {

@@ -14,12 +14,12 @@
 
 namespace volumic
 {
-/** Tests use more threads than the machine may have processors. */
+/** Allows more threads than processors. */
 inline const tbb::global_control ManyThreads(tbb::global_control::max_allowed_parallelism, 8);
 
-/** Waits for something that is sure to come; @return whether it has, on a machine however slow. */
+/** Wait for a condition. @return false after a timeout of 20 s */
 template <typename Condition>
-bool HasReachedEnd(const Condition& condition)
+bool WaitFor(const Condition& condition)
 {
   const auto start = std::chrono::steady_clock::now();
   while (!condition())
@@ -33,14 +33,11 @@ bool HasReachedEnd(const Condition& condition)
   return true;
 }
 
-/**
- * Threads that are held up by chance, before every item or now and then, so that what they do comes
- * in another order at each call.
- */
+/** Executor with random delays, so that the order of execution varies. */
 class DelayedThreads final : public Executor
 {
 public:
-  /** @param longest delay in microseconds; one in `every` items is delayed. */
+  /** @param longest delay in microseconds @param every one in so many items is delayed */
   DelayedThreads(int numberOfThreads, unsigned seed, unsigned longest, unsigned every = 1)
     : Executor(numberOfThreads), State(seed), Longest(longest), Every(every)
   {
@@ -49,7 +46,6 @@ public:
   void For(std::size_t n, std::size_t grain,
     const std::function<void(std::size_t, std::size_t)>& body) override
   {
-    // As many chunks as may be, whatever the grain.
     this->Executor::For((n + grain - 1) / grain, 1,
       [&](std::size_t begin, std::size_t end)
       {
@@ -76,7 +72,7 @@ private:
   unsigned Every;
 };
 
-/** Hands out ranges as scheduling might: short ones, last first. */
+/** Runs short ranges in reverse order. */
 class ScrambledExecutor final : public Executor
 {
 public:
@@ -96,7 +92,7 @@ private:
   std::size_t Chunk;
 };
 
-/** FNV-1a of the bytes of some values. */
+/** Return the FNV-1a hash of values. */
 template <typename Values>
 std::uint64_t HashOf(const Values& values, std::uint64_t hash = 1469598103934665603ull)
 {

@@ -7,7 +7,7 @@
 
 namespace volumic
 {
-/** Calls visit(i, j, k) for each voxel from first to before end, i fastest, k slowest. */
+/** Call visit(i, j, k) for each voxel in [first, end), i fastest. */
 template <typename Visit>
 void ForBox(const std::array<int, 3>& first, const std::array<int, 3>& end, Visit&& visit)
 {
@@ -23,7 +23,7 @@ void ForBox(const std::array<int, 3>& first, const std::array<int, 3>& end, Visi
   }
 }
 
-/** The same from voxel 0. */
+/** Call visit(i, j, k) for each voxel of a volume, i fastest. */
 template <typename Visit>
 void ForVoxels(const std::array<int, 3>& size, Visit&& visit)
 {

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** What the parts of the judge share. Include SurfaceJudge.h instead. */
-
 #ifndef volumicJudgeInternals_h
 #define volumicJudgeInternals_h
 
@@ -36,14 +34,14 @@ inline double Norm(const std::array<double, 3>& a)
   return std::sqrt(Dot(a, a));
 }
 
-/** Throws std::invalid_argument for what the contract of SurfaceJudge.h forbids. */
+/** Throw std::invalid_argument for an invalid index or coordinate (see SurfaceJudge.h). */
 void CheckSurface(const TriangleSurface& surface);
 
-/** Every edge once, as a sorted list of pairs with the smaller index first. */
+/** Return the sorted edges, each once, the smaller index first. */
 std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface);
 
-/** `share` of the values lie under the result; reorders them. 0 without values. */
-double Quantile(std::vector<double>& values, double share);
+/** Return a quantile of the values (0 if empty). Reorders the values. */
+double Quantile(std::vector<double>& values, double fraction);
 } // namespace volumic::support
 
 #endif

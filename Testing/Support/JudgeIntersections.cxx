@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CGAL takes a while to compile: only this file and JudgeTopology.cxx include it.
-
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
-
-#include <utility>
 
 namespace volumic::support
 {
@@ -25,7 +21,7 @@ Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
   return { p[0], p[1], p[2] };
 }
 
-/** The test that CGAL makes on a pair of faces, for triangles that need not be a mesh. */
+/** Test of a pair of triangles as in CGAL's self_intersections(), for a triangle soup. */
 class SoupTest
 {
 public:
@@ -44,8 +40,8 @@ public:
   bool Intersect(std::size_t t, std::size_t u) const
   {
     int shared = 0;
-    int freeT = 0, freeU = 0;       // corners outside a shared edge; sums of the shared ones before
-    int sharedT = -1, sharedU = -1; // the last shared corner
+    int freeT = 0, freeU = 0;       // sum of shared corners, then corner opposite a shared edge
+    int sharedT = -1, sharedU = -1; // last shared corner
     for (int c = 0; c < 3; ++c)
     {
       for (int d = 0; d < 3; ++d)
@@ -75,7 +71,7 @@ public:
     }
     if (shared == 2)
     {
-      // Two triangles at one edge overlap when they lie in a plane, on the same side of the edge.
+      // Triangles at an edge overlap if they are coplanar and on the same side of it.
       freeT = 3 - freeT;
       freeU = 3 - freeU;
       const Kernel::Point_3 from = this->Corner(t, (freeT + 1) % 3);
@@ -84,7 +80,7 @@ public:
       return CGAL::coplanar(from, to, tipT, tipU) &&
         CGAL::coplanar_orientation(from, to, tipT, tipU) == CGAL::POSITIVE;
     }
-    return true; // the same triangle twice
+    return true; // duplicate triangle
   }
 
 private:
@@ -92,8 +88,6 @@ private:
 };
 
 } // namespace
-
-//------------------------------------------------------------------------------
 
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
 {

@@ -9,21 +9,19 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
-#include <string>
 
 namespace volumic::support
 {
 namespace
 {
 
-/** What lengths may be outside their bounds by: points went through float. */
+/** Relative tolerance of lengths, as points are rounded to float. */
 constexpr double Rounding = 1e-6;
-/** Eq. 1: the longest edge, in delta. */
+/** Longest edge by eq. 1, in delta. */
 constexpr double LongestEdge = 2.5;
-/** From so many edges apart on, vertices are a pair that eq. 1 keeps apart. */
-constexpr int EdgesThatMakeAPair = 4;
-
-/** How near the vertices of a pair may be, in delta: the circumradius of the largest triangle. */
+/** Vertices at least so many edges apart are a pair of eq. 1. */
+constexpr int MinimumPairDistance = 4;
+/** Minimum distance of a pair, in delta: the circumradius of the largest triangle. */
 const double NearestInDelta = LongestEdge / std::sqrt(3.0);
 
 void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int, int>>& edges,
@@ -37,7 +35,7 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
   }
   const double largest = deltas.empty() ? 0.0 : *std::max_element(deltas.begin(), deltas.end());
   const PointGrid grid(surface.Points, NearestInDelta * largest);
-  // near[v] == i: v is at most EdgesThatMakeAPair - 1 edges from i.
+  // near[v] == i: v is less than MinimumPairDistance edges from i.
   std::vector<int> near(surface.Points.size(), -1);
   std::vector<int> queue;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -45,11 +43,11 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
     const int vertex = static_cast<int>(p);
     if (neighbours[p].empty())
     {
-      continue; // no vertex of the surface
+      continue; // unused point
     }
     queue.assign(1, vertex);
     near[p] = vertex;
-    for (std::size_t steps = 1, done = 0; steps < EdgesThatMakeAPair; ++steps)
+    for (std::size_t steps = 1, done = 0; steps < MinimumPairDistance; ++steps)
     {
       for (const std::size_t end = queue.size(); done < end; ++done)
       {
@@ -63,13 +61,13 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
         }
       }
     }
-    // A pair is looked for from the one of the smaller delta, and once where both are the same.
+    // A pair is counted at the vertex with the smaller delta, or the smaller index.
     grid.ForEachWithin(surface.Points[p], NearestInDelta * deltas[p] * (1.0 - Rounding),
       [&](int other)
       {
-        const bool isMine =
+        const bool isCountedHere =
           deltas[other] > deltas[p] || (deltas[other] == deltas[p] && other > vertex);
-        verdict.NearPairs += isMine && near[other] != vertex && !neighbours[other].empty();
+        verdict.NearPairs += isCountedHere && near[other] != vertex && !neighbours[other].empty();
         return true;
       });
   }
@@ -77,7 +75,6 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
 
 } // namespace
 
-//------------------------------------------------------------------------------
 LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
 {
   return JudgeLengths(surface, std::vector<double>(surface.Points.size(), delta));
@@ -88,8 +85,8 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<dou
   CheckSurface(surface);
   if (deltas.size() != surface.Points.size())
   {
-    throw std::invalid_argument("SurfaceJudge: " + std::to_string(deltas.size()) +
-      " deltas for " + std::to_string(surface.Points.size()) + " points");
+    throw std::invalid_argument("SurfaceJudge: " + std::to_string(deltas.size()) + " deltas for " +
+      std::to_string(surface.Points.size()) + " points");
   }
   const std::vector<std::pair<int, int>> edges = UniqueEdges(surface);
   LengthVerdict verdict;
@@ -114,7 +111,6 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<dou
   return verdict;
 }
 
-//------------------------------------------------------------------------------
 ShapeVerdict JudgeShapes(const TriangleSurface& surface)
 {
   CheckSurface(surface);

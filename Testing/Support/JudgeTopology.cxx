@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// CGAL takes a while to compile: only this file and JudgeIntersections.cxx include it.
-
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
@@ -32,7 +30,7 @@ struct Soup
   std::vector<std::vector<std::size_t>> Triangles;
 };
 
-/** The triangles that have three corners, and the points that they use. */
+/** Return the triangles with three different corners and their points. */
 Soup SoupOf(const TriangleSurface& surface, TopologyVerdict& verdict)
 {
   Soup soup;
@@ -49,14 +47,13 @@ Soup SoupOf(const TriangleSurface& surface, TopologyVerdict& verdict)
     }
     soup.Triangles.emplace_back(t.begin(), t.end());
   }
-  verdict.UnusedPoints =
-    PMP::remove_isolated_points_in_polygon_soup(soup.Points, soup.Triangles);
+  verdict.UnusedPoints = PMP::remove_isolated_points_in_polygon_soup(soup.Points, soup.Triangles);
   return soup;
 }
 
 void JudgeEdges(const Soup& soup, TopologyVerdict& verdict)
 {
-  std::vector<std::array<std::size_t, 3>> sides; // both ends, and the direction
+  std::vector<std::array<std::size_t, 3>> sides; // both ends and the direction
   for (const auto& t : soup.Triangles)
   {
     for (int c = 0; c < 3; ++c)
@@ -117,8 +114,6 @@ void JudgeComponents(Mesh& mesh, TopologyVerdict& verdict)
 }
 } // namespace
 
-//------------------------------------------------------------------------------
-
 TopologyVerdict JudgeTopology(const TriangleSurface& surface)
 {
   CheckSurface(surface);
@@ -134,7 +129,7 @@ TopologyVerdict JudgeTopology(const TriangleSurface& surface)
   if (!PMP::is_polygon_soup_a_polygon_mesh(soup.Triangles))
   {
     const std::size_t before = soup.Points.size();
-    PMP::orient_polygon_soup(soup.Points, soup.Triangles); // doubles the points where fans touch
+    PMP::orient_polygon_soup(soup.Points, soup.Triangles); // duplicates points where fans touch
     verdict.Faults += soup.Points.size() - before;
     verdict.Manifold = verdict.Manifold && soup.Points.size() == before;
   }

@@ -15,11 +15,9 @@ namespace volumic::support
 namespace
 {
 
-/** Of the ball of air that must reach what the surface is to reach, in voxels. */
+// Radii of JudgeReach(), in voxels.
 constexpr double BallRadius = 1.5;
-/** A voxel counts as touched by that ball within this distance of its centre. */
 constexpr double TouchedRadius = 2.5;
-/** A voxel counts as found with a vertex within this distance. */
 constexpr double FoundRadius = 2.0;
 
 void CheckVolume(const JudgedVolume& volume)
@@ -30,20 +28,20 @@ void CheckVolume(const JudgedVolume& volume)
   }
 }
 
-/** Value and gradient between the voxels; outside, the nearest voxel counts. */
+/** Interpolated value and gradient; outside, the nearest voxel counts. */
 class Field
 {
 public:
   explicit Field(const JudgedVolume& volume) : Volume(volume) {}
 
   void Sample(
-    const std::array<double, 3>& place, double& value, std::array<double, 3>& gradient) const
+    const std::array<double, 3>& point, double& value, std::array<double, 3>& gradient) const
   {
     int low[3];
     double part[3];
     for (int a = 0; a < 3; ++a)
     {
-      const double inside = std::clamp(place[a], 0.0, this->Volume.Size[a] - 1.0);
+      const double inside = std::clamp(point[a], 0.0, this->Volume.Size[a] - 1.0);
       low[a] = std::min(static_cast<int>(inside), std::max(this->Volume.Size[a] - 2, 0));
       part[a] = inside - low[a];
     }
@@ -87,24 +85,23 @@ private:
 };
 
 double DistanceAt(
-  const Field& field, const std::array<double, 3>& place, double isoValue, double largest)
+  const Field& field, const std::array<double, 3>& point, double isoValue, double largest)
 {
   double value;
   std::array<double, 3> gradient;
-  field.Sample(place, value, gradient);
+  field.Sample(point, value, gradient);
   const double difference = std::abs(value - isoValue);
   const double slope = Norm(gradient);
   return difference < largest * slope ? difference / slope : (difference > 0.0 ? largest : 0.0);
 }
 
-//------------------------------------------------------------------------------
-/** The volume with a border of air, which has room for a ball of air and its neighbours. */
+/** The volume with a border of background, wide enough for the ball and its neighbours. */
 struct AirMap
 {
   enum Flag : unsigned char
   {
     Object = 1,
-    Clear = 2, ///< a ball of air fits around it
+    Clear = 2, ///< centre of a ball of background
     Reached = 4
   };
   static constexpr int Border = 5;
@@ -123,8 +120,8 @@ struct AirMap
     ForVoxels(volume.Size,
       [&](int i, int j, int k)
       {
-        const bool isObject = volume.ObjectIsBright ? *value > volume.IsoValue
-                                                    : *value < volume.IsoValue;
+        const bool isObject =
+          volume.ObjectIsBright ? *value > volume.IsoValue : *value < volume.IsoValue;
         this->Flags[this->Offset(i + Border, j + Border, k + Border)] = isObject ? Object : 0;
         ++value;
       });
@@ -135,7 +132,7 @@ struct AirMap
     return (static_cast<std::ptrdiff_t>(k) * this->Size[1] + j) * this->Size[0] + i;
   }
 
-  /** To all voxels within a radius of at most Border. */
+  /** Return the offsets of voxels within a radius of at most Border. */
   std::vector<std::ptrdiff_t> Ball(double radius) const
   {
     std::vector<std::ptrdiff_t> offsets;
@@ -150,7 +147,7 @@ struct AirMap
     return offsets;
   }
 
-  /** How many of the voxels at these offsets have a flag. */
+  /** Count the voxels at these offsets that have a flag. */
   std::size_t Count(
     std::ptrdiff_t voxel, const std::vector<std::ptrdiff_t>& offsets, Flag flag) const
   {
@@ -158,7 +155,7 @@ struct AirMap
       [&](std::ptrdiff_t offset) { return (this->Flags[voxel + offset] & flag) != 0; }));
   }
 
-  /** Calls visit(index, place in the volume) for all voxels but the two outermost layers. */
+  /** Call visit(index, position) for all voxels except the two outermost layers. */
   template <typename Visitor>
   void ForEachInner(Visitor visit)
   {
@@ -170,7 +167,7 @@ struct AirMap
       });
   }
 
-  /** Marks where a ball of air fits, then where it gets to from outside. */
+  /** Mark the centres of background balls, then those connected to the outside. */
   void Flood(double radius)
   {
     const std::vector<std::ptrdiff_t> ball = this->Ball(radius);
@@ -197,7 +194,6 @@ struct AirMap
 
 } // namespace
 
-//------------------------------------------------------------------------------
 IsoDistanceVerdict JudgeIsoDistance(
   const TriangleSurface& surface, const JudgedVolume& volume, double largest)
 {
@@ -241,7 +237,6 @@ IsoDistanceVerdict JudgeIsoDistance(
   return verdict;
 }
 
-//------------------------------------------------------------------------------
 ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume)
 {
   CheckSurface(surface);
@@ -253,18 +248,17 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
   const PointGrid grid(surface.Points, FoundRadius);
   ReachVerdict verdict;
   map.ForEachInner(
-    [&](std::ptrdiff_t voxel, const std::array<double, 3>& place)
+    [&](std::ptrdiff_t voxel, const std::array<double, 3>& point)
     {
       const std::size_t objects = map.Count(voxel, faces, AirMap::Object);
       const bool isObject = (map.Flags[voxel] & AirMap::Object) != 0;
-      if (!isObject || objects == faces.size() ||
-        map.Count(voxel, touched, AirMap::Reached) == 0)
+      if (!isObject || objects == faces.size() || map.Count(voxel, touched, AirMap::Reached) == 0)
       {
         return;
       }
       ++verdict.ReachableVoxels;
       bool found = false;
-      grid.ForEachWithin(place, FoundRadius,
+      grid.ForEachWithin(point, FoundRadius,
         [&found](int)
         {
           found = true;

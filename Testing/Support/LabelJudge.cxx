@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <stdexcept>
-#include <utility>
 
 namespace volumic::support
 {
@@ -20,7 +19,7 @@ using Vector = std::array<double, 3>;
 
 constexpr double Degrees = 57.295779513082320877;
 
-/** Not a unit vector; its length is twice the area. */
+/** Return a normal whose length is twice the area. */
 Vector NormalOf(const TriangleSurface& surface, const std::array<int, 3>& triangle)
 {
   const Vector& origin = surface.Points[triangle[0]];
@@ -33,7 +32,7 @@ double AngleBetween(const Vector& a, const Vector& b)
   return Degrees * std::atan2(Norm(Cross(a, b)), Dot(a, b));
 }
 
-/** The place of the shape's surface nearest to another place. */
+/** Closest point of the surface of a shape, found by Newton's method. */
 class Foot
 {
 public:
@@ -42,33 +41,32 @@ public:
 
   Foot(const LabelShape& shape, const Vector& from)
   {
-    Vector place = from;
-    // Each step is one of Newton's, along the gradient.
+    Vector point = from;
     for (int i = 0; i < 5; ++i)
     {
-      const double value = shape.Distance(place);
-      this->Normal = GradientAt(shape, place);
+      const double value = shape.Distance(point);
+      this->Normal = GradientAt(shape, point);
       const double squared = Dot(this->Normal, this->Normal);
       if (std::abs(value) < 1e-10 || squared < 1e-6)
       {
-        break; // there, or where the gradient does not lead anywhere
+        break; // converged, or the gradient vanishes
       }
       for (int a = 0; a < 3; ++a)
       {
-        place[a] -= value / squared * this->Normal[a];
+        point[a] -= value / squared * this->Normal[a];
       }
     }
-    this->Distance = Norm(Difference(from, place));
+    this->Distance = Norm(Difference(from, point));
   }
 
 private:
-  static Vector GradientAt(const LabelShape& shape, const Vector& place)
+  static Vector GradientAt(const LabelShape& shape, const Vector& point)
   {
     const double step = 1e-4;
     Vector gradient;
     for (int a = 0; a < 3; ++a)
     {
-      Vector before = place, behind = place;
+      Vector before = point, behind = point;
       before[a] -= step;
       behind[a] += step;
       gradient[a] = (shape.Distance(behind) - shape.Distance(before)) / (2.0 * step);
@@ -79,7 +77,6 @@ private:
 
 } // namespace
 
-//------------------------------------------------------------------------------
 TruthVerdict JudgeTruth(const TriangleSurface& surface, const LabelShape& shape)
 {
   CheckSurface(surface);
@@ -131,7 +128,6 @@ TruthVerdict JudgeTruth(const TriangleSurface& surface, const LabelShape& shape)
   return verdict;
 }
 
-//------------------------------------------------------------------------------
 DihedralVerdict JudgeDihedrals(const TriangleSurface& surface)
 {
   CheckSurface(surface);
@@ -179,7 +175,6 @@ DihedralVerdict JudgeDihedrals(const TriangleSurface& surface)
   return verdict;
 }
 
-//------------------------------------------------------------------------------
 MisclassifiedVoxelVerdict JudgeVoxels(
   const TriangleSurface& surface, const LabelMap& map, int label)
 {

@@ -19,7 +19,7 @@ using Vector = std::array<double, 3>;
 using Implicit = std::function<double(const Vector&)>;
 
 constexpr double Pi = 3.14159265358979323846;
-/** Of the smallest extent, as in SceneShape. */
+/** Reference units of the smallest extent, as in SceneShape. */
 constexpr double ReferenceSize = 64.0;
 
 /** A label in reference units, around 0. */
@@ -27,8 +27,8 @@ struct ReferenceShape
 {
   int Label;
   Implicit Distance;
-  double Volume;        ///< 0: to be measured
-  bool IsSmooth = true; ///< sharp ones have no distance for the judge
+  double Volume;        ///< 0: computed by sampling
+  bool IsSmooth = true; ///< false: without Distance in LabelShape
 };
 
 double Length(const Vector& p)
@@ -38,8 +38,9 @@ double Length(const Vector& p)
 
 Implicit Ball(const Vector& centre, double radius)
 {
-  return [centre, radius](const Vector& p)
-  { return Length({ p[0] - centre[0], p[1] - centre[1], p[2] - centre[2] }) - radius; };
+  return [centre, radius](const Vector& p) {
+    return Length({ p[0] - centre[0], p[1] - centre[1], p[2] - centre[2] }) - radius;
+  };
 }
 
 double BallVolume(double radius)
@@ -47,7 +48,7 @@ double BallVolume(double radius)
   return 4.0 / 3.0 * Pi * radius * radius * radius;
 }
 
-/** The larger one, rounded where both are about 0 with a radius of about .7 `rounding`. */
+/** Return the smooth maximum, with a radius of about .7 `rounding`. */
 double RoundedMaximum(double a, double b, double rounding)
 {
   const double h = std::max(rounding - std::abs(a - b), 0.0) / rounding;
@@ -58,8 +59,8 @@ double GyroidInBall(const Vector& p)
 {
   const double turns = 2.0 * Pi / 27.0;
   const double x = turns * (p[0] + 3.1), y = turns * (p[1] - 1.7), z = turns * (p[2] + 0.9);
-  const double sheet = std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) +
-    std::sin(z) * std::cos(x);
+  const double sheet =
+    std::sin(x) * std::cos(y) + std::sin(y) * std::cos(z) + std::sin(z) * std::cos(x);
   const Vector slope = { std::cos(x) * std::cos(y) - std::sin(z) * std::sin(x),
     std::cos(y) * std::cos(z) - std::sin(x) * std::sin(y),
     std::cos(z) * std::cos(x) - std::sin(y) * std::sin(z) };
@@ -67,13 +68,13 @@ double GyroidInBall(const Vector& p)
   return RoundedMaximum(distance, Length(p) - 27.0, 8.0);
 }
 
-/** Between two half planes that leave the z axis at these angles, less than half a turn apart. */
+/** Wedge between two half planes at the z axis, at angles less than pi apart. */
 Implicit Sector(double from, double to)
 {
   return [from, to](const Vector& p)
   {
-    return std::max(std::sin(from) * p[0] - std::cos(from) * p[1],
-      std::cos(to) * p[1] - std::sin(to) * p[0]);
+    return std::max(
+      std::sin(from) * p[0] - std::cos(from) * p[1], std::cos(to) * p[1] - std::sin(to) * p[0]);
   };
 }
 
@@ -87,7 +88,7 @@ std::vector<ReferenceShape> CutBallShapes()
     shapes.push_back({ s + 1,
       [sector](const Vector& p) { return std::max(sector(p), Length(p) - 24.3); }, 0.0, false });
   }
-  // Last: it covers the others.
+  // The last shape has priority.
   shapes.push_back({ 4, Ball({ 0.3, 0.2, -0.4 }, 10.2), BallVolume(10.2) });
   return shapes;
 }
@@ -107,7 +108,7 @@ std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind)
       return { { 1, GyroidInBall, 0.0 } };
     case LabelShapeKind::TouchingBalls:
     {
-      // As far apart as both radii together, but for the rounding of the axis.
+      // The distance of the centres equals the sum of the radii.
       const double length = Length(axis);
       return { { 1, Ball(along(-12.0 / length), 14.1), BallVolume(14.1) },
         { 2, Ball(along(13.0 / length), 10.9), BallVolume(10.9) } };
@@ -118,23 +119,17 @@ std::vector<ReferenceShape> ShapesOf(LabelShapeKind kind)
   throw std::invalid_argument("Digitise: unknown kind of shape");
 }
 
-/** By counting points of a grid .4 apart. */
+/** Measure a volume by sampling it on a grid of spacing .4. */
 double MeasuredVolume(const Implicit& distance)
 {
   const int count = 160;
   const double step = ReferenceSize / count;
   std::size_t inside = 0;
-  for (int k = 0; k < count; ++k)
-  {
-    for (int j = 0; j < count; ++j)
-    {
-      for (int i = 0; i < count; ++i)
-      {
-        const auto at = [step](int n) { return (n + 0.5) * step - 0.5 * ReferenceSize; };
-        inside += distance({ at(i), at(j), at(k) }) < 0.0;
-      }
-    }
-  }
+  const auto at = [step](int n) { return (n + 0.5) * step - 0.5 * ReferenceSize; };
+  ForVoxels({ count, count, count },
+    [&](int i, int j, int k) {
+      inside += distance({ at(i), at(j), at(k) }) < 0.0;
+    });
   return static_cast<double>(inside) * step * step * step;
 }
 
@@ -142,28 +137,16 @@ double MeasuredVolume(const Implicit& distance)
 
 std::string LabelShapeName(LabelShapeKind kind)
 {
-  switch (kind)
-  {
-    case LabelShapeKind::Sphere:
-      return "Sphere";
-    case LabelShapeKind::Torus:
-      return "Torus";
-    case LabelShapeKind::Gyroid:
-      return "Gyroid";
-    case LabelShapeKind::TouchingBalls:
-      return "TouchingBalls";
-    case LabelShapeKind::CutBall:
-      return "CutBall";
-  }
-  throw std::invalid_argument("LabelShapeName: unknown kind of shape");
+  constexpr std::array<const char*, 5> names = { "Sphere", "Torus", "Gyroid", "TouchingBalls",
+    "CutBall" };
+  return names.at(static_cast<std::size_t>(kind));
 }
 
-//------------------------------------------------------------------------------
 DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
 {
   if (size < 32 || !(stretch >= 1.0))
   {
-    throw std::invalid_argument("Digitise: at least 32 voxels are needed, and a stretch of 1");
+    throw std::invalid_argument("Digitise: size must be at least 32, stretch at least 1");
   }
   DigitisedShapes result;
   result.Name = LabelShapeName(kind);
@@ -200,8 +183,8 @@ DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch)
     if (shape.IsSmooth)
     {
       truth.Distance = distance;
-      truth.Volume = unit * unit * unit *
-        (shape.Volume > 0.0 ? shape.Volume : MeasuredVolume(shape.Distance));
+      truth.Volume =
+        unit * unit * unit * (shape.Volume > 0.0 ? shape.Volume : MeasuredVolume(shape.Distance));
     }
     result.Shapes.push_back(truth);
   }

@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/**
- * Label maps of shapes that are known by formula, for surfaces of labels to be judged by what was
- * digitised. A unit of the world is the smallest distance of two voxels.
- */
-
 #ifndef volumicLabelShapes_h
 #define volumicLabelShapes_h
 
@@ -15,9 +10,9 @@
 #include <string>
 #include <vector>
 
+/** Label maps of analytic shapes. One world unit is the smallest voxel spacing. */
 namespace volumic::support
 {
-
 /** The centre of voxel (i, j, k) is at origin + spacing * (i, j, k). */
 struct LabelMap
 {
@@ -27,14 +22,11 @@ struct LabelMap
   std::vector<std::int16_t> Values; ///< x fastest
 };
 
-/** What a label is the digitisation of. */
+/** Analytic shape of a label. */
 struct LabelShape
 {
   int Label = 1;
-  /**
-   * World units, negative inside: zero at the surface, and near it the distance to the first order
-   * at least. Empty where the shape has sharp edges, which no surface is judged by.
-   */
+  /** Implicit function, world units, negative inside. Empty for shapes with sharp edges. */
   std::function<double(const std::array<double, 3>&)> Distance;
   double Volume = 0.0; ///< world units cubed, within .02 %; 0 without Distance
 };
@@ -43,12 +35,12 @@ enum class LabelShapeKind
 {
   Sphere,
   Torus,         ///< tilted
-  Gyroid,        ///< one sheet's inside within a ball, its rims rounded: of high genus
-  TouchingBalls, ///< labels 1 and 2, which touch at a point
-  CutBall        ///< labels 1 to 3: a ball cut in three like a cake; 4: a smooth ball in its middle
+  Gyroid,        ///< one side of a gyroid in a ball: high genus
+  TouchingBalls, ///< labels 1 and 2, touching at a point
+  CutBall        ///< labels 1 to 3: sectors of a ball; 4: a ball in their middle
 };
 
-/** Letters only. */
+/** Return the name of a kind, valid as test name. */
 std::string LabelShapeName(LabelShapeKind kind);
 
 struct DigitisedShapes
@@ -59,8 +51,8 @@ struct DigitisedShapes
 };
 
 /**
- * Voxels get the label whose shape their centres are in. `size`: voxels along x and y, at least 32;
- * along z as many as fill the same length, `stretch` units apart. Throws std::invalid_argument.
+ * Digitise shapes at voxel centres. @param size voxels along x and y, at least 32 @param stretch
+ * spacing along z, at least 1. Throw std::invalid_argument.
  */
 DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch = 1.0);
 

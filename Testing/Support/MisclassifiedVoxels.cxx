@@ -3,11 +3,7 @@
 #include "MisclassifiedVoxels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <utility>
-#include <vector>
 
 namespace volumic::support
 {
@@ -15,7 +11,7 @@ namespace volumic::support
 std::vector<char> EnclosedVoxels(const TriangleSurface& surface, const std::array<int, 3>& size)
 {
   const auto [nx, ny, nz] = size;
-  // Crossings of the rows, a little beside the voxels so that no row hits an edge.
+  // Crossings with rows of voxels. Rows are shifted slightly so that they hit no edge.
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(ny) * nz);
   constexpr double dy = 1.234567e-7;
   constexpr double dz = 2.345678e-7;
@@ -70,7 +66,7 @@ std::vector<char> EnclosedVoxels(const TriangleSurface& surface, const std::arra
   return enclosed;
 }
 
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene)
+double MisclassifiedFraction(const TriangleSurface& surface, const Scene& scene)
 {
   const std::vector<char> enclosed = EnclosedVoxels(surface, scene.Size);
   std::size_t wrong = 0;

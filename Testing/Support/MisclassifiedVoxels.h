@@ -12,17 +12,11 @@
 namespace volumic::support
 {
 
-/**
- * 1 for each voxel, x fastest, whose centre a closed surface encloses. The surface is in index
- * coordinates; sides are found by counting crossings along rows of voxels.
- */
+/** Return 1 for each voxel enclosed by a closed surface in index coordinates, x fastest. */
 std::vector<char> EnclosedVoxels(const TriangleSurface& surface, const std::array<int, 3>& size);
 
-/**
- * Voxels that are on the wrong side of a closed surface, as a share of the object's. The surface
- * is in index coordinates.
- */
-double ShareOfWrongVoxels(const TriangleSurface& surface, const Scene& scene);
+/** Return the ratio of misclassified voxels to object voxels; surface in index coordinates. */
+double MisclassifiedFraction(const TriangleSurface& surface, const Scene& scene);
 
 } // namespace volumic::support
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/** Points sorted into cells, to find those near a place. Part of the judge. */
-
 #ifndef volumicPointGrid_h
 #define volumicPointGrid_h
 
@@ -16,10 +14,11 @@
 
 namespace volumic::support
 {
+/** Grid of points for range queries. */
 class PointGrid
 {
 public:
-  /** Keeps a reference to the points. `radius` is the largest distance that will be asked for. */
+  /** Keep a reference to the points. @param radius largest search radius */
   PointGrid(const std::vector<std::array<double, 3>>& points, double radius)
     : Points(points), Side(radius)
   {
@@ -29,15 +28,12 @@ public:
     }
   }
 
-  /**
-   * Calls visit(index) for every point within `radius` of the place, until it returns false.
-   * `radius` must not be over the one of the constructor.
-   */
+  /** Call visit(index) for each point within a radius, until it returns false. */
   template <typename Visitor>
-  void ForEachWithin(const std::array<double, 3>& place, double radius, Visitor visit) const
+  void ForEachWithin(const std::array<double, 3>& centre, double radius, Visitor visit) const
   {
-    const Cell middle = this->CellOf(place);
-    bool goesOn = true;
+    const Cell middle = this->CellOf(centre);
+    bool shouldContinue = true;
     ForBox({ -1, -1, -1 }, { 2, 2, 2 },
       [&](int i, int j, int k)
       {
@@ -45,8 +41,8 @@ public:
         for (std::size_t n = 0; cell != this->Cells.end() && n < cell->second.size(); ++n)
         {
           const auto& p = this->Points[cell->second[n]];
-          const double distance = std::hypot(p[0] - place[0], p[1] - place[1], p[2] - place[2]);
-          goesOn = goesOn && (distance > radius || visit(cell->second[n]));
+          const double distance = std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
+          shouldContinue = shouldContinue && (distance > radius || visit(cell->second[n]));
         }
       });
   }

@@ -14,12 +14,10 @@ namespace
 
 using Vector = std::array<double, 3>;
 
-// Radius by which sharp convex rims are rounded: no mesh of edges of about a voxel can hold
-// sharper.
-constexpr double LinkRounding = 2.0;
+// Radius of rounded convex edges: a mesh with edges of about a voxel cannot resolve less.
+constexpr double EdgeRounding = 2.0;
 
-//------------------------------------------------------------------------------
-// Signed distances (negative inside), at least near the surface.
+// Signed distances (negative inside), accurate near the surface.
 
 double Dot(const Vector& a, const Vector& b)
 {
@@ -71,7 +69,6 @@ double RoundedBox(const Vector& p, const Vector& halfSize, double rounding)
   return Length(outside) + std::min(largest, 0.0) - rounding;
 }
 
-/** Distance to a segment from `from` to `to`, less a radius. */
 double Capsule(const Vector& p, const Vector& from, const Vector& to, double radius)
 {
   const Vector along = Minus(to, from);
@@ -92,15 +89,14 @@ double Ellipsoid(const Vector& p, const Vector& semiAxes)
   return norm > 0.0 ? level * (level - 1.0) / norm : -semiAxes[0];
 }
 
-/** What lies in `a` and not in `b`, with rounded rims. */
+/** Difference of `a` and `b`, with rounded edges. */
 double Without(double a, double b, double rounding)
 {
   const double h = std::max(rounding - std::abs(a + b), 0.0) / rounding;
   return std::max(a, -b) + 0.25 * h * h * rounding;
 }
 
-//------------------------------------------------------------------------------
-// No shape is aligned with the voxels: that would test the easy case only.
+// Shapes are not aligned with the voxels.
 const Vector TiltedAxis = Unit({ 0.3, 0.5, 0.81 });
 
 SceneShape MakeSphere()
@@ -132,7 +128,6 @@ SceneShape MakeTorus(const Vector& axis)
   SceneShape shape;
   shape.Distance = [axis, major](const Vector& p) { return Ring(p, axis, major, 7.5); };
   shape.Genus = shape.GenusFromOutside = 1;
-  // Any direction across the axis leads to the middle of the ring.
   const Vector across = Unit(Minus({ 1.0, 0.0, 0.0 }, Scaled(axis, axis[0])));
   shape.Seeds = { Scaled(across, major), Scaled(across, -major) };
   shape.SeedRadius = 4.0;
@@ -148,7 +143,7 @@ SceneShape MakeBoxWithTwoTunnels()
     const double box = RoundedBox(p, { 26.0, 16.0, 13.0 }, 4.0);
     const double left = Capsule(p, { -11.0, -3.0, -40.0 }, { -11.0, 3.0, 40.0 }, 6.0);
     const double right = Capsule(p, { 11.0, 3.0, -40.0 }, { 11.0, -3.0, 40.0 }, 6.0);
-    return Without(box, std::min(left, right), LinkRounding);
+    return Without(box, std::min(left, right), EdgeRounding);
   };
   shape.Genus = shape.GenusFromOutside = 2;
   shape.Seeds = { { 0.0, 0.0, 0.0 }, { -21.5, 0.0, 0.0 }, { 21.5, 0.0, 0.0 } };
@@ -157,13 +152,13 @@ SceneShape MakeBoxWithTwoTunnels()
   return shape;
 }
 
-/** A hollow ball, opened by a tube from its centre outward unless the radius of the tube is 0. */
+/** Hollow ball with a tubular opening; radius 0: closed. */
 double OpenedShell(const Vector& p, double outer, double inner, double opening)
 {
   const double radius = Length(p);
   const double shell = std::max(radius - outer, inner - radius);
   return opening > 0.0
-    ? Without(shell, Capsule(p, { 0.0, 0.0, 0.0 }, Scaled(TiltedAxis, 60.0), opening), LinkRounding)
+    ? Without(shell, Capsule(p, { 0.0, 0.0, 0.0 }, Scaled(TiltedAxis, 60.0), opening), EdgeRounding)
     : shell;
 }
 
@@ -197,12 +192,12 @@ SceneShape MakeThinShellWithEightHoles(double wall)
   shape.Distance = [wall](const Vector& p)
   {
     const double shell = std::abs(Length(p) - 22.0) - 0.5 * wall;
-    // The holes sit at the corners of a cube that is turned about z.
+    // Holes at the corners of a cube rotated about z.
     const double c = std::cos(0.35), s = std::sin(0.35);
     const Vector turned = { std::abs(c * p[0] - s * p[1]), std::abs(s * p[0] + c * p[1]),
       std::abs(p[2]) };
     const double hole = Capsule(turned, { 0.0, 0.0, 0.0 }, { 40.0, 40.0, 40.0 }, 6.0);
-    return Without(shell, hole, 0.5 * LinkRounding);
+    return Without(shell, hole, 0.5 * EdgeRounding);
   };
   shape.Genus = shape.GenusFromOutside = 7;
   shape.CoarsestFaithfulLevel = 0;
@@ -232,7 +227,6 @@ SceneShape MakeShadedEllipsoid()
 
 } // namespace
 
-//------------------------------------------------------------------------------
 SceneShape MakeSceneShape(SceneKind kind, double thinWall)
 {
   switch (kind)

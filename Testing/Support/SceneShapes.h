@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/**
- * The shapes of the synthetic scenes as signed distances, without any sampling.
- * Part of SyntheticScenes.cxx; nobody else needs it.
- */
-
 #ifndef volumicSceneShapes_h
 #define volumicSceneShapes_h
 
@@ -16,14 +11,14 @@
 namespace volumic::support
 {
 
-/** A shape in reference units, of which 64 fill the smallest extent of the volume, around 0. */
+/** A shape around 0. The smallest extent of the volume is 64 reference units. */
 struct SceneShape
 {
-  /** Signed distance to the surface, negative inside, right at least near the surface. */
+  /** Signed distance, negative inside, accurate near the surface. */
   std::function<double(const std::array<double, 3>&)> Distance;
   bool Shaded = false;
 
-  // The rest is as in Scene.
+  // As in Scene.
   int Components = 1;
   int Genus = 0;
   int ComponentsFromOutside = 1;
@@ -33,7 +28,7 @@ struct SceneShape
   int CoarsestFaithfulLevel = 0;
 };
 
-/** Walls that are said to be thin get `thinWall` as thickness, in reference units. */
+/** Return a shape. @param thinWall thickness of thin walls, reference units */
 SceneShape MakeSceneShape(SceneKind kind, double thinWall);
 
 } // namespace volumic::support

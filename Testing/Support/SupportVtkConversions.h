@@ -1,11 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-/**
- * Scenes, label maps and surfaces to and from VTK. Inline, so that the support library itself needs
- * no VTK; who includes it links VTK::CommonCore, VTK::CommonDataModel.
- */
-
 #ifndef volumicSupportVtkConversions_h
 #define volumicSupportVtkConversions_h
 
@@ -29,42 +24,41 @@
 #include <stdexcept>
 #include <vector>
 
+/** Conversions to and from VTK. Inline: the support library does not depend on VTK. */
 namespace volumic::support
 {
-
-/** The scene with its spacing, origin 0, and the values as float point scalars named `Scene`. */
-inline vtkSmartPointer<vtkImageData> ToImage(const Scene& scene)
+/** Return an image with the size, spacing and values of a volume. */
+template <typename Array, typename Volume>
+vtkSmartPointer<vtkImageData> ToImageOf(const Volume& volume, const char* name)
 {
-  vtkNew<vtkFloatArray> values;
-  values->SetName("Scene");
-  values->SetNumberOfTuples(static_cast<vtkIdType>(scene.Values.size()));
-  std::copy(scene.Values.begin(), scene.Values.end(), values->GetPointer(0));
+  vtkNew<Array> values;
+  values->SetName(name);
+  values->SetNumberOfTuples(static_cast<vtkIdType>(volume.Values.size()));
+  std::copy(volume.Values.begin(), volume.Values.end(), values->GetPointer(0));
   auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(scene.Size[0], scene.Size[1], scene.Size[2]);
-  image->SetSpacing(scene.Spacing[0], scene.Spacing[1], scene.Spacing[2]);
+  image->SetDimensions(volume.Size.data());
+  image->SetSpacing(volume.Spacing.data());
   image->GetPointData()->SetScalars(values);
   return image;
 }
 
-/** With its values as point scalars `Labels`. */
+/** Return an image with origin 0 and point scalars `Scene`. */
+inline vtkSmartPointer<vtkImageData> ToImage(const Scene& scene)
+{
+  return ToImageOf<vtkFloatArray>(scene, "Scene");
+}
+
+/** Return an image with point scalars `Labels`. */
 inline vtkSmartPointer<vtkImageData> ToImage(const LabelMap& map)
 {
-  vtkNew<vtkShortArray> values;
-  values->SetName("Labels");
-  values->SetNumberOfTuples(static_cast<vtkIdType>(map.Values.size()));
-  std::copy(map.Values.begin(), map.Values.end(), values->GetPointer(0));
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(map.Size.data());
-  image->SetSpacing(map.Spacing.data());
+  const auto image = ToImageOf<vtkShortArray>(map, "Labels");
   image->SetOrigin(map.Origin.data());
-  image->GetPointData()->SetScalars(values);
   return image;
 }
 
 /**
- * The polygons of a poly data. With an image, points are taken to its index coordinates (voxel
- * (0, 0, 0) of its extent at the origin). Throws std::invalid_argument unless all polygons are
- * triangles.
+ * Return the triangles of a surface. With an image, points are in its index coordinates, relative
+ * to its extent. Throw std::invalid_argument if a polygon is not a triangle.
  */
 inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* image = nullptr)
 {
@@ -73,15 +67,15 @@ inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* im
   surface.Points.resize(static_cast<std::size_t>(numberOfPoints));
   for (vtkIdType p = 0; p < numberOfPoints; ++p)
   {
-    double* place = surface.Points[static_cast<std::size_t>(p)].data();
-    polyData->GetPoint(p, place);
+    double* point = surface.Points[static_cast<std::size_t>(p)].data();
+    polyData->GetPoint(p, point);
     if (image)
     {
       double index[3];
-      image->TransformPhysicalPointToContinuousIndex(place, index);
+      image->TransformPhysicalPointToContinuousIndex(point, index);
       for (int a = 0; a < 3; ++a)
       {
-        place[a] = index[a] - image->GetExtent()[2 * a];
+        point[a] = index[a] - image->GetExtent()[2 * a];
       }
     }
   }
@@ -101,10 +95,7 @@ inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* im
   return surface;
 }
 
-/**
- * The delta of each point, world units: from `EdgeSize` where the surface is graded, else that of
- * the whole surface; none where nothing tells of any.
- */
+/** Return delta of each point, world units, from `EdgeSize` or `Delta`; empty without both. */
 inline std::vector<double> DeltasOf(vtkPolyData* surface)
 {
   constexpr double requestedInDelta = 1.6; // Edges may be 1 to 2.5.
@@ -119,7 +110,7 @@ inline std::vector<double> DeltasOf(vtkPolyData* surface)
   return deltas;
 }
 
-/** What the judge takes for a scene. The scene has to stay alive. */
+/** Return the volume of a scene for the judge. The scene must outlive it. */
 inline JudgedVolume ToJudgedVolume(const Scene& scene)
 {
   JudgedVolume volume;

@@ -6,7 +6,6 @@
 #include "JudgeInternals.h"
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -52,19 +51,18 @@ std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface)
   return edges;
 }
 
-double Quantile(std::vector<double>& values, double share)
+double Quantile(std::vector<double>& values, double fraction)
 {
   if (values.empty())
   {
     return 0.0;
   }
   const std::size_t rank =
-    std::min(values.size() - 1, static_cast<std::size_t>(share * values.size()));
+    std::min(values.size() - 1, static_cast<std::size_t>(fraction * values.size()));
   std::nth_element(values.begin(), values.begin() + rank, values.end());
   return values[rank];
 }
 
-//------------------------------------------------------------------------------
 SurfaceVerdict JudgeSurface(
   const TriangleSurface& surface, double delta, const JudgedVolume* volume)
 {
@@ -87,13 +85,13 @@ std::string Describe(const SurfaceVerdict& verdict)
   const TopologyVerdict& topology = verdict.Topology;
   std::ostringstream text;
   text.precision(4);
-  text << topology.Components.size() << " components, chi " << topology.EulerCharacteristic << ", genus " << topology.Genus
-       << ", area " << topology.Area << ", volume " << topology.Volume << "\n"
+  text << topology.Components.size() << " components, chi " << topology.EulerCharacteristic
+       << ", genus " << topology.Genus << ", area " << topology.Area << ", volume "
+       << topology.Volume << "\n"
        << (topology.Closed ? "closed" : "NOT CLOSED") << ", "
        << (topology.Manifold ? "manifold" : "NOT MANIFOLD") << ", "
        << (topology.Oriented ? "oriented" : "NOT ORIENTED") << ", "
-       << (topology.Outward ? "outward" : "NOT OUTWARD") << " (" << topology.Faults
-       << " faults)\n"
+       << (topology.Outward ? "outward" : "NOT OUTWARD") << " (" << topology.Faults << " faults)\n"
        << "self-intersecting pairs " << verdict.Intersections.Pairs << ", flat triangles "
        << verdict.Intersections.FlatTriangles << "\n"
        << "edges " << verdict.Lengths.Shortest << " / " << verdict.Lengths.Mean << " / "
@@ -104,7 +102,7 @@ std::string Describe(const SurfaceVerdict& verdict)
        << verdict.Shapes.Quantile01 << ", mean " << verdict.Shapes.Mean << "\n";
   if (verdict.HasVolume)
   {
-    text << "distance to the isopotential, voxels: at vertices mean "
+    text << "distance to the isosurface, voxels: at vertices mean "
          << verdict.IsoDistance.MeanAtVertices << ", 99 % "
          << verdict.IsoDistance.Quantile99AtVertices << ", largest "
          << verdict.IsoDistance.LargestAtVertices << "; at centroids mean "

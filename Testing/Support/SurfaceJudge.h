@@ -2,16 +2,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 /**
- * One judge for all surfaces, ours and other people's. It shares no code with the module that it
- * judges, and works on plain arrays. Everything is at most O(n log n).
+ * Judge of surfaces. It shares no code with the tested module. Complexity is at most O(n log n).
  *
- * Lengths are in the units of the points. Functions that take a volume want the points in index
- * coordinates, voxel (0, 0, 0) at the origin and one unit per voxel along each axis; then lengths
- * are voxels. Constraints on lengths have to be judged in the space in which the surface was made
- * (for anisotropic voxels that is not the world).
+ * Lengths are in the units of the points. Functions with a volume expect points in index
+ * coordinates: voxel (0, 0, 0) at the origin, lengths in voxels. Test constraints on lengths in the
+ * computational space of the surface, which is not the world for anisotropic voxels.
  *
- * All functions throw std::invalid_argument for a triangle with an index that is out of range and
- * for a coordinate that is not finite; JudgeLengths() also unless there is a delta for each point.
+ * All functions throw std::invalid_argument for indices out of range and coordinates that are not
+ * finite.
  */
 
 #ifndef volumicSurfaceJudge_h
@@ -26,8 +24,7 @@
 namespace volumic::support
 {
 
-//------------------------------------------------------------------------------
-/** One component: triangles connected across edges. */
+/** Edge-connected component. */
 struct ComponentVerdict
 {
   int EulerCharacteristic = 0;
@@ -38,40 +35,36 @@ struct ComponentVerdict
 struct TopologyVerdict
 {
   /**
-   * Edges that do not have two triangles in opposite directions, vertices at which fans touch, and
-   * triangles with a repeated corner, which all else leaves out.
+   * Number of edges without two consistently oriented triangles, of vertices where fans touch, and
+   * of triangles with a repeated corner, which the other results ignore.
    */
   std::size_t Faults = 0;
   std::size_t UnusedPoints = 0;
 
   bool Closed = false;   ///< not empty, no edge with one triangle
-  bool Manifold = false; ///< no edge with three, no fans that touch, no degenerate triangle
+  bool Manifold = false; ///< at most two triangles at an edge, one fan at a vertex, no degeneracy
   bool Oriented = false; ///< consistently
-  bool Outward = false;  ///< all of that, positive volumes, and negative ones for cavities
+  bool Outward = false;  ///< all of these, and cavities have negative volumes, others positive
 
   int EulerCharacteristic = 0;
-  int Genus = -1; ///< sum over the components, -1 unless closed, manifold and oriented
+  int Genus = -1; ///< sum of all components, -1 unless closed, manifold and oriented
   double Area = 0.0;
   double Volume = 0.0; ///< sum of the signed volumes
   std::vector<ComponentVerdict> Components;
 };
 
-/** By CGAL's polygon mesh processing. */
+/** Compute the topology with CGAL's polygon mesh processing. */
 TopologyVerdict JudgeTopology(const TriangleSurface& surface);
 
-//------------------------------------------------------------------------------
 struct IntersectionVerdict
 {
-  /** Pairs of triangles that intersect anywhere but at a vertex or edge which they share. */
-  std::size_t Pairs = 0;
-  /** Triangles without area; they are left out of the pairs. */
-  std::size_t FlatTriangles = 0;
+  std::size_t Pairs = 0;         ///< of triangles that intersect outside shared vertices and edges
+  std::size_t FlatTriangles = 0; ///< triangles without area, ignored in the pairs
 };
 
-/** With CGAL's exact predicates. */
+/** Count intersections with CGAL's exact predicates. */
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface);
 
-//------------------------------------------------------------------------------
 struct LengthVerdict
 {
   std::size_t Edges = 0;
@@ -80,29 +73,20 @@ struct LengthVerdict
   double Longest = 0.0;
   std::size_t EdgesTooShort = 0; ///< under delta
   std::size_t EdgesTooLong = 0;  ///< over 2.5 delta
-  /**
-   * Pairs of vertices at least 4 edges apart along the surface (or on different components) and
-   * nearer than (2.5 / sqrt 3) delta.
-   */
+  /** Pairs of vertices at least 4 edges apart and closer than (2.5 / sqrt 3) delta. */
   std::size_t NearPairs = 0;
 };
 
-/**
- * Constraints of eq. 1. Each edge counts once. Comparisons allow a relative rounding of 1e-6, for
- * points that went through float.
- */
+/** Test the constraints of eq. 1, with a relative rounding tolerance of 1e-6 for floats. */
 LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta);
 
 /**
- * The same of a graded surface, of which each point has a delta: that of an edge is the mean of its
- * ends', that of a pair the smaller one.
+ * Test a graded surface with a delta for each point. An edge uses the mean delta of its vertices, a
+ * pair the smaller delta. Throw std::invalid_argument unless each point has a delta.
  */
 LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<double>& deltas);
 
-//------------------------------------------------------------------------------
-/**
- * Radius ratio 2 r / R of incircle and circumcircle: 1 for an equilateral triangle, 0 for a flat.
- */
+/** Radius ratio 2 r / R of incircle and circumcircle: 1 if equilateral, 0 if degenerate. */
 struct ShapeVerdict
 {
   double Least = 0.0;
@@ -112,16 +96,14 @@ struct ShapeVerdict
 
 ShapeVerdict JudgeShapes(const TriangleSurface& surface);
 
-//------------------------------------------------------------------------------
-/** A volume to measure against; it does not own its values. Outside, the nearest voxel counts. */
+/** Reference volume, not owned. Outside it, the nearest voxel counts. */
 struct JudgedVolume
 {
   const float* Values = nullptr; ///< x fastest
   std::array<int, 3> Size = { 0, 0, 0 };
   double IsoValue = 0.0;
   bool ObjectIsBright = true;
-  /** Distance of the voxels along each axis, in the unit that distances are wanted in. */
-  std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
+  std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 }; ///< in the unit of the results
 };
 
 struct IsoDistanceVerdict
@@ -133,34 +115,28 @@ struct IsoDistanceVerdict
 };
 
 /**
- * Distance to the isopotential, |I - iso| / |grad I|, from the trilinear field and the trilinear
- * interpolation of central differences. No distance counts more than `largest`: where the field is
- * flat the quotient means nothing. Points in index coordinates, result and `largest` in the unit of
- * the volume's Spacing.
+ * Compute the distance to the isosurface, |I - iso| / |grad I|, from trilinear interpolation of the
+ * field and its central differences. Distances are clamped to `largest`, as the quotient is
+ * meaningless in flat regions. Points in index coordinates, distances in the unit of Spacing.
  */
 IsoDistanceVerdict JudgeIsoDistance(
   const TriangleSurface& surface, const JudgedVolume& volume, double largest = 10.0);
 
-//------------------------------------------------------------------------------
 struct ReachVerdict
 {
   /**
-   * Object voxels with a 6-neighbour of air that a ball of air of radius 1.5 voxels can reach from
-   * outside the volume (within 2.5 voxels of a centre of that ball).
+   * Object voxels with a background 6-neighbour and within 2.5 voxels of the centre of a background
+   * ball of radius 1.5 voxels that is connected to the outside of the volume.
    */
   std::size_t ReachableVoxels = 0;
-  std::size_t FoundVoxels = 0; ///< those within two voxels of a vertex
-  double Share = 0.0;          ///< of the one in the other; 1 where there is nothing to reach
+  std::size_t FoundVoxels = 0; ///< reachable voxels within two voxels of a vertex
+  double Share = 0.0;          ///< ratio of found to reachable voxels; 1 if none is reachable
 };
 
-/**
- * Target Q4: did the surface get everywhere? Outside the volume is air. Points in index
- * coordinates.
- */
+/** Measure which part of the boundary the surface reaches. Points in index coordinates. */
 ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume);
 
-//------------------------------------------------------------------------------
-/** All of it. Volume parts are left at their defaults when no volume is given. */
+/** All results. Those of a volume have default values without one. */
 struct SurfaceVerdict
 {
   TopologyVerdict Topology;
@@ -172,11 +148,11 @@ struct SurfaceVerdict
   ReachVerdict Reach;
 };
 
-/** Points, delta and volume all in index coordinates. `volume` may be null. */
+/** Judge a surface. Points, delta and volume in index coordinates; `volume` may be null. */
 SurfaceVerdict JudgeSurface(
   const TriangleSurface& surface, double delta, const JudgedVolume* volume = nullptr);
 
-/** A few lines of text with all figures, for logs and messages of failing tests. */
+/** Return a text with all results, for failing tests. */
 std::string Describe(const SurfaceVerdict& verdict);
 
 } // namespace volumic::support

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <stdexcept>
 
 namespace volumic::support
 {
@@ -19,11 +18,10 @@ namespace
 constexpr double Background = 20.0;
 constexpr double Contrast = 100.0;
 constexpr double ReferenceSize = 64.0;
-// As thin as a wall between two sheets of one surface may be is lambda delta = 1.44 * 0.85 voxels;
-// the rest is for the sheets being triangles, not planes.
+// Minimum wall thickness is lambda delta = 1.44 * 0.85 voxels, plus a margin for the triangulation.
 constexpr double ThinWall = 2.0;
 
-/** std::normal_distribution gives other numbers with other standard libraries; this does not. */
+/** Reproducible, unlike std::normal_distribution, with any standard library. */
 class GaussianNoise
 {
 public:
@@ -40,7 +38,7 @@ private:
   std::mt19937 Generator;
 };
 
-/** Share of the light at relative place x in [0, 1]: 50 % of it are lost across the volume. */
+/** Return the brightness at x in [0, 1]. */
 double Shading(double x)
 {
   return 1.25 - 0.5 * x;
@@ -48,11 +46,9 @@ double Shading(double x)
 
 } // namespace
 
-//------------------------------------------------------------------------------
 Scene MakeScene(SceneKind kind, const SceneOptions& options)
 {
-  const double scale =
-    *std::min_element(options.Size.begin(), options.Size.end()) / ReferenceSize;
+  const double scale = *std::min_element(options.Size.begin(), options.Size.end()) / ReferenceSize;
   const SceneShape shape = MakeSceneShape(kind, ThinWall / scale);
 
   Scene scene;
@@ -77,8 +73,7 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
     scene.Seeds.push_back(index);
   }
 
-  // With shading, background and contrast are such that the dark end of the object is darker than
-  // the bright end of the background.
+  // With shading, the dark end of the object is darker than the bright end of the background.
   const double background = shape.Shaded ? 0.9 * Contrast : Background;
   const double contrast = shape.Shaded ? 0.4 * Contrast : Contrast;
   scene.IsoValue = background + 0.5 * contrast;
@@ -94,15 +89,15 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
     [&](int i, int j, int k)
     {
       const int index[3] = { i, j, k };
-      std::array<double, 3> place;
+      std::array<double, 3> point;
       for (int a = 0; a < 3; ++a)
       {
-        place[a] = (index[a] - 0.5 * (options.Size[a] - 1)) / scale;
+        point[a] = (index[a] - 0.5 * (options.Size[a] - 1)) / scale;
       }
-      const double distance = shape.Distance(place) * scale;
+      const double distance = shape.Distance(point) * scale;
       const double occupied = 0.5 * std::erfc(distance * blur);
-      const double share = options.ObjectIsBright ? occupied : 1.0 - occupied;
-      double value = background + contrast * share;
+      const double fraction = options.ObjectIsBright ? occupied : 1.0 - occupied;
+      double value = background + contrast * fraction;
       if (shape.Shaded)
       {
         value *= Shading(i / (options.Size[0] - 1.0));
@@ -118,35 +113,12 @@ Scene MakeScene(SceneKind kind, const SceneOptions& options)
   return scene;
 }
 
-//------------------------------------------------------------------------------
 std::string SceneName(SceneKind kind)
 {
-  switch (kind)
-  {
-    case SceneKind::Sphere:
-      return "Sphere";
-    case SceneKind::TwoSpheres:
-      return "TwoSpheres";
-    case SceneKind::Torus:
-      return "Torus";
-    case SceneKind::BoxWithTwoTunnels:
-      return "BoxWithTwoTunnels";
-    case SceneKind::ShellWithOpening:
-      return "ShellWithOpening";
-    case SceneKind::NestedBalls:
-      return "NestedBalls";
-    case SceneKind::ClosedNestedBalls:
-      return "ClosedNestedBalls";
-    case SceneKind::ThinShellWithEightHoles:
-      return "ThinShellWithEightHoles";
-    case SceneKind::FourBubbles:
-      return "FourBubbles";
-    case SceneKind::TorusOfTwoBubbles:
-      return "TorusOfTwoBubbles";
-    case SceneKind::ShadedEllipsoid:
-      return "ShadedEllipsoid";
-  }
-  throw std::invalid_argument("SceneName: unknown kind of scene");
+  constexpr std::array<const char*, 11> names = { "Sphere", "TwoSpheres", "Torus",
+    "BoxWithTwoTunnels", "ShellWithOpening", "NestedBalls", "ClosedNestedBalls",
+    "ThinShellWithEightHoles", "FourBubbles", "TorusOfTwoBubbles", "ShadedEllipsoid" };
+  return names.at(static_cast<std::size_t>(kind));
 }
 
 std::vector<SceneKind> SceneKindsReachableFromOutside()

@@ -10,9 +10,7 @@
 namespace volumic::support
 {
 
-/**
- * A surface as plain arrays, whoever made it. Corners count counter-clockwise seen from outside.
- */
+/** Indexed triangles, counter-clockwise seen from outside. */
 struct TriangleSurface
 {
   std::vector<std::array<double, 3>> Points;

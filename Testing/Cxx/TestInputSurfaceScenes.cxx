@@ -1,12 +1,9 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// What people give as initial surfaces: VTK's sources with their coarse facets, slivers and fans,
-// decimated scans. Each must be legal before the first iteration and at the end,
-// by the judge's exact tests, or be refused because it is not legal itself.
+// Initial surfaces of VTK's sources and decimated scans. Invalid ones must be rejected.
 #include "EvolutionTestTools.h"
 #include "SurfaceJudge.h"
-#include "TestPrelude.h"
 
 #include <vtkCleanPolyData.h>
 #include <vtkConeSource.h>
@@ -32,7 +29,7 @@ namespace
 constexpr int Size = 40;
 constexpr double Middle = 19.5;
 
-/** Numbers that are the same with any standard library. */
+/** Random numbers, reproducible with any standard library. */
 class Dice
 {
 public:
@@ -41,7 +38,7 @@ public:
   {
     return low + (high - low) * (static_cast<double>(this->Engine()) / 4294967296.0);
   }
-  /** Small ones as often as large ones. */
+  /** Logarithmic distribution. */
   int Count(int low, int high)
   {
     return static_cast<int>(std::exp(this->Between(std::log(low), std::log(high))));
@@ -61,7 +58,7 @@ vtkSmartPointer<vtkPolyData> Cleaned(vtkAlgorithmOutput* polygons)
   return clean->GetOutput();
 }
 
-/** A bumpy ball as from a scan, with fewer triangles. */
+/** Return a decimated isosurface of a bumpy ball. */
 vtkSmartPointer<vtkPolyData> Decimated(Dice& dice)
 {
   double wave[12];
@@ -144,7 +141,7 @@ vtkSmartPointer<vtkPolyData> MakeShape(const std::string& kind, Dice& dice)
   return Decimated(dice);
 }
 
-/** Turned about an oblique axis and set into the image. */
+/** Rotate a shape and move it to the centre of the image. */
 IndexedSurface Placed(vtkPolyData* shape, Dice& dice)
 {
   const double angle = dice.Between(0.0, 1.0) < 0.3 ? 0.0 : dice.Between(0.0, 6.28);
@@ -190,13 +187,14 @@ void ExpectLegal(const SurfaceResult& surface, const char* when)
 }
 }
 
-class GivenSurfaces : public ::testing::TestWithParam<const char*>
+class InputSurfaces : public ::testing::TestWithParam<const char*>
 {
 };
 
-TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
+TEST_P(InputSurfaces, AreValidAtStartAndEnd)
 {
-  const TestVolume volume = MakeVolume(Size, [](double x, double y, double z)
+  const TestVolume volume = MakeVolume(Size,
+    [](double x, double y, double z)
     { return Soft(Distance(x, y, z, Middle, Middle, Middle) - 12.0); });
   int accepted = 0;
   constexpr int rounds = 10;
@@ -212,7 +210,7 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
     }
     catch (const std::invalid_argument& error)
     {
-      // What decimation leaves may be broken, and shapes may be too flat; nothing else.
+      // Decimated surfaces may be invalid, shapes may be too thin.
       const TopologyVerdict topology = JudgeTopology(Judged(given));
       const bool isBroken = !topology.Outward || JudgeIntersections(Judged(given)).Pairs > 0;
       EXPECT_TRUE(isBroken || std::string(error.what()).find("too thin") != std::string::npos)
@@ -228,6 +226,6 @@ TEST_P(GivenSurfaces, AreLegalBeforeTheFirstIterationAndAtTheEnd)
   EXPECT_GE(accepted, rounds / 2);
 }
 
-INSTANTIATE_TEST_SUITE_P(Starts, GivenSurfaces,
+INSTANTIATE_TEST_SUITE_P(Starts, InputSurfaces,
   ::testing::Values("Cylinders", "Cones", "Spheres", "DecimatedScans"),
   [](const ::testing::TestParamInfo<const char*>& start) { return std::string(start.param); });
