@@ -5,7 +5,7 @@
     PYTHONPATH=<prefix>/lib/python3/dist-packages python3 Documentation/reference_tables.py
 
 A row has the name of a property, its default in the wrapped class, and the first sentences of the
-documentation of its Set method in the header, up to 25 words, with all values. Properties that are the
+documentation of its Set method in the header, up to 28 words, with all values. Properties that are the
 same as in an earlier class, or deprecated, are listed below the table. All this lies between the lines
 `<!-- properties of CLASS -->` and `<!-- end -->`.
 
@@ -21,10 +21,10 @@ import volumic
 FOLDER = os.path.dirname(os.path.abspath(__file__))
 PAGE = os.path.join(FOLDER, "reference.md")
 TABLE = re.compile(r"(<!-- properties of (\w+) -->\n).*?(<!-- end -->)", re.DOTALL)
-COMMENT = re.compile(r"/\*\*((?:(?!\*/).)*)\*/\s*(?:virtual )?(?:void Set|vtkSetMacro\()(\w+)", re.DOTALL)
-WORDS = 25
+COMMENT = re.compile(r"/\*\*((?:(?!\*/).)*)\*/\s*(?:void Set|\w+Macro\()(\w+)", re.DOTALL)
+WORDS = 28
 # Sentences that stay in a long documentation: on a value, and on requirements.
-KEPT = re.compile(r"(`\w+` \(|-?\d+[:,]|Off:|Requires )")
+KEPT = re.compile(r"(`\w+` \(|-?\d+[:,]|Off:|Automatic:|Requires )")
 CONSTANTS = ((math.nan, "none"), (math.inf, "infinite"), (math.sqrt(3), "sqrt(3)"))
 
 
@@ -61,19 +61,20 @@ def default_text(value):
 
 def meaning(kind, text):
     """Return what a table has of the text of a comment: one line, without the default."""
-    text = re.sub(r"\n *\*", "\n", text)
-    text = " ".join(re.sub(r"\n\s*- ", "; ", text).split()).replace(":;", ":").replace(".;", ".")
+    text = re.sub(r"\n *\* ?", "\n", text)
+    text = re.sub(r"(\n- [^\n]*(?:\n  [^\n]*)*)\n+(?=[^\s-])", r"\1. ", text)  # end of a list
+    text = " ".join(text.replace("\n- ", "; ").split()).replace(".;", ".")
+    text = re.sub(r"^Set/Get (the )?(.)", lambda match: match[2].upper(), text)
+    text = re.sub(r" ?\(default: (?:[^()]|\([^()]*\))*\)", "", text)
+    text = re.sub(r"\(default (?=[^()]+: )", "(", text)
     values = {key: value for key, value in vars(kind).items()
               if isinstance(value, int) and key[0].isupper()}
     if values:
         # An enumerator that begins a phrase gets its number.
-        text = re.sub(rf"(^|[.;:] )({'|'.join(values)})(?=:|,| \(default)",
+        text = re.sub(rf"([.;:] )({'|'.join(values)})(?=[:;,])",
                       lambda match: f"{match[1]}`{match[2]}` ({int(values[match[2]])})", text)
-    text = re.sub(r" Get\w+\(\) returns [^.]*\.|,? ?[Dd]efaults?: (?:[^.]|\.(?=\d))*\.(?= |$)"
-                  r"| \((the )?default\)|, the default", "", text)
-    text = text.rstrip(".") + "."
     kept, count = [], 0
-    for sentence in re.split(r"(?<=\.)(?<!eq\.) (?=[A-Z0-9`-])", text):
+    for sentence in re.split(r"(?<=\.) (?=[A-Z0-9`-])", text.rstrip(".") + "."):
         count += len(sentence.split())
         if not kept or count <= WORDS or KEPT.match(sentence):
             kept.append(sentence)
@@ -89,17 +90,15 @@ def default_of(class_name, name):
 def table(class_name):
     """Return the lines of the table of a class, and of the lists of properties below it."""
     kind = getattr(volumic, class_name)
-    header = read_header(class_name)
-    comments = {name: text for text, name in COMMENT.findall(header)}
-    is_other, previous = class_name != "vtkDeformableSurface", ""
+    names = property_names(kind())
     rows, lists = ["| property | default | meaning |", "|---|---|---|"], {}
-    for name in sorted(property_names(kind()), key=lambda name: header.find(f"Set{name}(")):
-        # The first of several properties has the comment of all.
-        shared = "As vtkDeformableSurface." if is_other else f"See `{previous}`."
-        text, previous = meaning(kind, comments.get(name, shared)), name
-        default = default_of(class_name, name)
-        like = re.match(r"(?:As|See)(?: in| of)? `?(vtkDeformableSurface)", text)
-        if re.match("Deprecated|(Has n|N)o effect", text):
+    for text, name in COMMENT.findall(read_header(class_name)):
+        if name not in names:
+            continue
+        names.remove(name)
+        default, text = default_of(class_name, name), meaning(kind, text)
+        like = re.search(r"as in (vtkDeformableSurface)", text)
+        if text.startswith("Deprecated"):
             lists.setdefault("Deprecated, without effect", []).append(name)
         elif class_name != "vtkImagePyramid" and default == default_of("vtkImagePyramid", name):
             lists.setdefault("As in `vtkImagePyramid`", []).append(name)
@@ -107,6 +106,8 @@ def table(class_name):
             lists.setdefault(f"As in `{like[1]}`", []).append(name)
         else:
             rows.append(f"| `{name}` | {default} | {text} |")
+    if names:
+        raise ValueError(f"{class_name}.h has no comment on {', '.join(names)}")
     lines = [f"{title}: {', '.join(f'`{name}`' for name in names)}.\n"
              for title, names in sorted(lists.items())]
     return "\n".join((rows + [""] if len(rows) > 2 else []) + lines)

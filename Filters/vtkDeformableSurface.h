@@ -221,10 +221,10 @@ public:
    */
   volumicPropertyMacro(EdgeLength, double);
   /**
-   * Set/Get the largest distance of longer edges' faces from the isosurface in world units (default
-   * 0: uniform edges). It applies to the finest level. Faces may be farther where the uniform
-   * surface is. `WithinTolerance` and `LargestDistance` report it. Requires EdgeLength 0 and
-   * SnapToIsoValue.
+   * Set/Get the largest distance from the isosurface that longer edges may cause, in world units
+   * (default 0: uniform edges). It applies to the finest level. Faces may be farther where the
+   * uniform surface is, too. `WithinTolerance` and `LargestDistance` report it. Requires EdgeLength
+   * 0 and SnapToIsoValue.
    */
   volumicPropertyMacro(Tolerance, double);
   /**
@@ -249,15 +249,16 @@ public:
 
   ///@{
   /**
-   * Set/Get the level at which the run starts (default -1: automatic). Automatic: the coarsest
-   * level at which a part of the object has MinimumPartSize voxels. Without Recovery, a surface
-   * must be able to represent the part. It is an error if the object is too thin at this level at
-   * all seeds or, without Recovery, at one of them.
+   * Set/Get the level at which the run starts (default -1: automatic). Automatic: the last level if
+   * it has any voxel of the object, else the coarsest level at which a part of the object has
+   * MinimumPartSize voxels. Without Recovery: the coarsest level at which a surface can represent a
+   * part. It is an error if the object is too thin at the start at all seeds or, without Recovery,
+   * at one of them.
    */
   volumicPropertyMacro(CoarsestLevel, int);
   /**
    * Set/Get the level at which the run ends, at most CoarsestLevel (default 0: the input). -1: one
-   * more subdivision, with sqrt(3) times smaller triangles, on the field of level 0.
+   * more subdivision, with sqrt(3) times shorter edges, on the field of level 0.
    */
   volumicPropertyMacro(FinestLevel, int);
   /**
@@ -363,7 +364,7 @@ public:
    * `MissingParts` and `MissingBoundary` report what remains missing.
    */
   volumicPropertyMacro(Recovery, int);
-  /** Set/Get the smallest size in voxels of the level of a part to recover (default: 20). */
+  /** Set/Get the minimum size of a part to recover, in voxels of the level (default: 20). */
   volumicPropertyMacro(MinimumPartSize, int);
   /** Set/Get whether the surface may merge and be cut (default: on). Off: contacts only stop it. */
   volumicBooleanPropertyMacro(TopologyChanges);

@@ -196,15 +196,15 @@ public:
   /** Set/Get the mean edge length in world units (default 0: from FinestLevel). */
   volumicPropertyMacro(EdgeLength, double);
   /**
-   * Set/Get the edge length relative to the voxels if EdgeLength is 0 (default: 0). Level 0 has
+   * Set/Get the level that determines the edge length if EdgeLength is 0 (default: 0). Level 0 has
    * triangles as large as voxels. Each further level has sqrt(3) times longer edges, level -1
    * sqrt(3) times shorter ones.
    */
   volumicPropertyMacro(FinestLevel, int);
   /**
-   * Set/Get the largest distance of longer edges' faces from the interfaces in world units (default
-   * 0: uniform edges). Volumes remain those of the voxels. Junction lines move by at most this
-   * distance.
+   * Set/Get the largest distance from the interfaces that longer edges may cause, in world units
+   * (default 0: uniform edges). Volumes remain those of the voxels. Junction lines move by at most
+   * this distance.
    */
   volumicPropertyMacro(Tolerance, double);
   /** Set/Get the maximum edge length with Tolerance in world units (default 0: automatic). */

@@ -108,7 +108,7 @@ def pyramid_picture(pyramid, scan, title, width=WIDTH):
     names = ("Axial slices", "Sagittal slices") if scan.has_sides else ("Slices across z",
                                                                         "Slices across x")
     return render.compose(rows, [[], [], captions], title,
-                          [*names, f"Iso-surfaces at {scan.iso:g}"])
+                          [*names, f"Isosurfaces at {scan.iso:g}"])
 
 
 def iso_surface(image, iso):

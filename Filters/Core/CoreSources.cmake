@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
 
-# The sources of the core, for the module and for the tests, which see what the library hides.
-# Room by room, from the ground up: a room includes only itself and those before it
-# (Documentation/architecture.md).
+# Sources of the core, for the module and for the tests, which use private symbols. The order is that of
+# the rooms in Documentation/architecture.md.
 
 set(volumic_core_sources
   Common/Executor.cxx
@@ -41,6 +40,7 @@ set(volumic_core_sources
   Mesh/SurfaceFeatures.cxx
   Mesh/SurfaceMeasures.cxx
   Mesh/SurfaceMesh.cxx
+  Mesh/SurfaceMeshAppend.cxx
   Mesh/TriangleDistance.cxx
   Mesh/TriangleTests.cxx
   Mesh/TriangleTree.cxx
@@ -74,6 +74,7 @@ set(volumic_core_sources
   Surface/RemesherMerges.cxx
   Surface/StarImprovement.cxx
   Surface/StarFaces.cxx
+  Surface/StarIntersections.cxx
   Surface/StarScore.cxx
   Surface/StarShape.cxx
   Surface/SurfaceBlocks.cxx
@@ -103,8 +104,8 @@ set(volumic_core_sources
   Evolution/SurfaceResult.cxx)
 list(TRANSFORM volumic_core_sources PREPEND "${CMAKE_CURRENT_LIST_DIR}/")
 
-# Results are the same bits on every processor: no product and sum is contracted into one rounding.
-# Nobody asks for errno after a square root, which so is one instruction, rounded as ever.
+# Results are bit-identical on all processors, because no product and sum are contracted. Without errno,
+# a square root is one instruction.
 set(volumic_core_options)
 if (CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   set(volumic_core_options "$<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>"

@@ -41,7 +41,6 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
   return !isPieceOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
 }
 
-/** Return whether the run is not parallel. */
 inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs)
 {
   return RequestedOutput(request, outputs)

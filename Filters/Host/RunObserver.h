@@ -77,7 +77,6 @@ public:
   /** Report that a level begins, before its voxels are loaded. Return false to stop. */
   bool BeginLevel(int level);
 
-  /** Add the levels down to `finest`. */
   void ContinueAtLevel(int finest) { this->Finest = finest; }
 
 private:

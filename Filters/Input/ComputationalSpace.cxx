@@ -85,7 +85,6 @@ std::array<float, 3> ComputationalSpace::NormalToWorld(const std::array<float, 3
 
 namespace
 {
-/** Points per task. */
 constexpr std::size_t PointSpan = 16384;
 
 template <typename Map>

@@ -61,7 +61,6 @@ bool FitsFloat(double smallest, double largest);
 /** Return `array 'name'`, for messages. */
 std::string NameOf(vtkDataArray* array);
 
-/** Return the world coordinates of the first voxel. */
 Point FirstVoxelOf(vtkImageData* image);
 
 /** Return `256 x 256 x 108`, for messages. */

@@ -127,7 +127,6 @@ vtkDataArray* ChosenCells(vtkImageData* image, vtkInformation* selection)
     : nullptr;
 }
 
-/** Hide the points of hidden cells. */
 void BlankAsCells(vtkImageData* cells, vtkImageData* points)
 {
   if (vtkUnsignedCharArray* ghosts = cells->GetCellGhostArray())
@@ -201,7 +200,6 @@ PointVoxels ConvertCellsToPoints(vtkImageData* image, vtkInformation* selection)
   image->GetExtent(extent);
   for (int axis = 0; axis < 3; ++axis)
   {
-    // An axis with one point has one cell.
     const bool isFlat = image->GetDimensions()[axis] == 1;
     extent[2 * axis + 1] -= isFlat ? 0 : 1;
     first[axis] = isFlat ? 0.0 : 0.5;

@@ -103,7 +103,6 @@ Point CheckInside(const Point& world, vtkIdType id, const ComputationalSpace& sp
   return position;
 }
 
-/** Return whether the data have polygons and no vertices. */
 bool IsSurfaceOnly(vtkPolyData* polyData)
 {
   return polyData->GetNumberOfPolys() + polyData->GetNumberOfStrips() > 0 &&

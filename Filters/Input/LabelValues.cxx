@@ -18,7 +18,6 @@ namespace volumic
 {
 namespace
 {
-/** Return whether an integer is in the range of int. */
 template <typename T>
 bool IsInt(T value)
 {
@@ -36,7 +35,6 @@ T Rounded(T value)
   return value;
 }
 
-/** Return all digits of an integer. */
 template <typename T>
 std::string DigitsOf(T value)
 {

@@ -188,14 +188,12 @@ VoxelHistogram FindOtsuThreshold(vtkImageData* image, vtkInformation* selection,
 
 namespace
 {
-/** Maximum number of different values of a label map. */
 constexpr std::size_t MostValues = 1024;
 /**
  * Minimum fraction of equal neighbors in a label map. Nine atlases have at least 0.82. Fourteen
  * scans, half of them of 8 bits, have at most 0.57, in a saturated one.
  */
 constexpr double MinimumFractionOfEqual = 0.75;
-/** Minimum number of pairs of neighbors. */
 constexpr vtkIdType MinimumPairs = 50;
 
 /** Call `use` with the first voxels of rows with about a million voxels in total. */

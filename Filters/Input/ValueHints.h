@@ -17,7 +17,6 @@ class vtkInformation;
 
 namespace volumic
 {
-/** Histogram and thresholds of an image. */
 struct VoxelHistogram
 {
   std::array<double, 2> Range = { 0.0, 0.0 }; ///< of the voxels, without the padding of a CT

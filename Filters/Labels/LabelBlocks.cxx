@@ -24,7 +24,6 @@ namespace volumic
 {
 namespace
 {
-/** Maximum number of labels in a warning. */
 constexpr std::size_t MaximumNamed = 10;
 
 /** Fraction of missing voxels above which there is a warning, not only field data. */
@@ -61,7 +60,6 @@ void AddLabels(vtkPolyData* surface, const std::vector<int>& labels, const Label
   surface->GetCellData()->AddArray(array);
 }
 
-/** Add the names and colors of labels. */
 void AddNames(vtkPolyData* surface, const std::vector<int>& labels, const LabelNames& names)
 {
   std::vector<std::string> texts;
@@ -114,7 +112,6 @@ public:
     }
   }
 
-  /** Return whether to warn. */
   bool AreNotable() const { return this->Missing > NotableFraction * this->Voxels; }
 
   std::string Text() const

@@ -23,17 +23,14 @@ struct LabelChoice
   bool IsMerged = false;   ///< one surface around all
   LabelNames Names;
 
-  /** Return the labels of a surface. */
   std::vector<int> LabelsOf(std::size_t surface) const
   {
     return this->IsMerged ? this->Labels : std::vector<int>{ this->Labels[surface] };
   }
-  /** Return the first label of each surface. */
   std::vector<int> FirstLabels() const
   {
     return this->IsMerged ? std::vector<int>{ this->Labels.front() } : this->Labels;
   }
-  /** Return the name of each block. */
   std::vector<std::string> BlockNames() const
   {
     std::vector<std::string> names;

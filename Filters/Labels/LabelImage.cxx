@@ -32,7 +32,6 @@ namespace volumic
 {
 namespace
 {
-/** Voxels per task. */
 constexpr std::size_t Grain = 1 << 18;
 
 /** Return the number and extent of the voxels from `first` to `last`, in the order of memory. */

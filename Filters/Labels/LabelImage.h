@@ -23,7 +23,6 @@ class vtkPolyData;
 
 namespace volumic
 {
-/** Number and extent of the voxels of a label. */
 struct LabelVoxels
 {
   vtkIdType Count = 0;

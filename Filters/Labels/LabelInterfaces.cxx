@@ -40,7 +40,6 @@ constexpr double MinimumPeriod = 4.;
 /** Relative volume error above which a part counts in `WrongParts`. */
 constexpr double MaximumVolumeError = 0.25;
 
-/** Fraction of the fields in the progress. */
 constexpr double FieldFraction = 0.4;
 
 /** Return the box of all objects, or of the whole map, in whole bricks. */

@@ -85,12 +85,10 @@ private:
   double EdgeLength() const;
   /** Return the edges of junction lines with faces in Interfaces(). */
   std::vector<std::array<int, 2>> ShownLines() const;
-  /** Add the field data of junction lines, if there are any. */
   void AddLineFields(const std::vector<std::array<int, 2>>& lines, vtkPolyData* interfaces) const;
   LabelSurface SurfaceOf(int object, const std::vector<int>& faces) const;
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
-  /** Compare all objects with their voxels. */
   void CountVoxels(HostThreads& threads);
   /** Return the distance of a vertex of an object from the interface in its fields, world units. */
   float ResidualAt(int v, int object) const;

@@ -13,7 +13,6 @@ class vtkDataObject;
 
 namespace volumic
 {
-/** Names and colors of labels. */
 struct LabelNames
 {
   using Color = std::array<double, 3>; ///< red, green, blue, 0 to 1

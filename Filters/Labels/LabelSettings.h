@@ -41,7 +41,6 @@ struct LabelSettings
    */
   void Check(vtkImageData* image) const;
 
-  /** Return the options for the fields of a map. */
   LabelFieldOptions FieldOptions(const LabelMap& map) const;
 };
 }

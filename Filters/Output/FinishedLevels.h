@@ -54,7 +54,6 @@ public:
    * @param keepsAll whether to keep all for another selection
    */
   void Add(FinishedLevel level, SurfaceResult surface, bool keepsAll, Executor& threads);
-  /** Remove a level and its snapshots. */
   void Forget(int level);
   void AddSnapshot(int level, const std::string& name, vtkPolyData* surface)
   {
@@ -73,13 +72,11 @@ public:
    * level. Return null with AllComponents, or if they are not kept.
    */
   vtkSmartPointer<vtkPolyData> LeftOut(int last, Executor& threads) const;
-  /** Return the description of an added level. */
   const SurfaceDescription& DescriptionOf(int level) const
   {
     return this->Levels.at(level).Description;
   }
 
-  /** Set the history of all levels. */
   void SetRows(const std::vector<HistoryRow>& rows) { this->Rows = rows; }
   /** Fill the outputs of a run with `last` as its finest level. */
   void FillOutputs(int last, vtkInformationVector* outputs) const;

@@ -14,7 +14,6 @@ namespace volumic
 {
 namespace
 {
-/** A column: its name, and the member of a row. */
 struct Column
 {
   const char* Name;

@@ -21,7 +21,6 @@ namespace volumic
 {
 namespace
 {
-/** Triangles per task. */
 constexpr std::size_t SpanSize = 16384;
 
 /**
@@ -211,7 +210,6 @@ void MarkNear(const LargeVector<Point>& points, const DescribedSurface& surface,
   }
 }
 
-/** Return DescribedSurface::Owners. */
 std::vector<int> OwnersOf(
   const IndexedSurface& surface, const SurfaceFeatures& features, Executor& executor)
 {

@@ -41,7 +41,6 @@ namespace volumic
 {
 namespace
 {
-/** vtkFloatArray or vtkDoubleArray. */
 template <typename Real>
 using ArrayOf = std::conditional_t<std::is_same_v<Real, float>, vtkFloatArray, vtkDoubleArray>;
 

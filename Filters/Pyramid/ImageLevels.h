@@ -21,7 +21,6 @@ class vtkMultiBlockDataSet;
 
 namespace volumic
 {
-/** One level of an image. */
 struct ImageLevel
 {
   vtkSmartPointer<vtkImageData> Image; ///< geometry and ghost array (blanked voxels)
@@ -42,7 +41,6 @@ struct ImageLevels
   PyramidOptions Options() const;
 };
 
-/** How to compute the levels of an image. */
 struct LevelsOptions
 {
   PyramidOptions Pyramid;
@@ -78,7 +76,6 @@ ImageLevels LevelsOfBlocks(
 ImageLevels LevelsOfArray(const ImageLevels& levels, vtkInformation* selection, int numberOfThreads,
   const Progress& progress);
 
-/** Return the block names of the levels of a pyramid, and of level -1 if it is the finest. */
 std::vector<std::string> LevelNames(int numberOfLevels, int finest = 0);
 
 /** Return the levels as the blocks of the output of vtkImagePyramid, with its field data. */

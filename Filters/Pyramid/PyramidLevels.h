@@ -39,7 +39,6 @@ public:
   /** Return whether the level has MinimumSize voxels along each axis. Level 0 has. */
   bool HasRoom(int level) const;
 
-  /** Return the number of voxels of a level along each axis. */
   const std::array<int, 3>& SizeOf(int level) const { return this->Sizes[level]; }
   std::int64_t NumberOfVoxels(int level) const;
 
@@ -74,7 +73,6 @@ public:
    * level 0, too.
    */
   void ReleaseCoarserThan(int level);
-  /** Return whether the voxels of a level are not released. */
   bool HasVoxels(int level) const { return this->Levels[level].Image != nullptr; }
 
 private:

@@ -157,7 +157,6 @@ void StartWhereContained(LevelChoice& choice, int withObject, const Segmentation
     ", as the object is too thin. Set Coarsest Level to ", withObject, " or less.");
 }
 
-/** Start at a level that has the object. */
 void StartAtObject(
   LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
 {
@@ -178,7 +177,6 @@ void StartAtObject(
   }
 }
 
-/** Start at a level that has the object at the seeds. */
 void StartAtSeeds(
   LevelChoice& choice, const SegmentationLevels& levels, const SegmentationSettings& settings)
 {

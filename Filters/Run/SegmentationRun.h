@@ -61,7 +61,6 @@ public:
    */
   void Run(RunObserver& observer, double before);
 
-  /** Return the finest level of the request. */
   int EndsAt() const { return this->Choice.Last; }
   /** Return the level after EndsAt() for a completed run, else EndsAt(). */
   int NextLevel() const { return this->HasReachedEnd() ? this->Reached - 1 : this->EndsAt(); }
@@ -77,12 +76,10 @@ public:
   {
     this->Finished.FillOutputs(this->EndsAt(), outputs);
   }
-  /** See FinishedLevels::LeftOut(). */
   vtkSmartPointer<vtkPolyData> LeftOut(Executor& threads) const
   {
     return this->Finished.LeftOut(this->EndsAt(), threads);
   }
-  /** See FinishedLevels::WarningOf(). */
   std::string Warning(bool warnsOfMissing) const
   {
     return this->Finished.WarningOf(this->EndsAt(), warnsOfMissing && this->Levels.Seeds().empty());
@@ -90,7 +87,6 @@ public:
 
 private:
   bool HasReachedEnd() const { return this->Finished.HasConverged(this->EndsAt()); }
-  /** Return the finest level of a request. */
   int EndOf(const SegmentationEnd& end) const;
   /** Apply EdgeLength to existing levels: finest level, sampling ratio, factor below level 0. */
   void ChooseEdgeLength();

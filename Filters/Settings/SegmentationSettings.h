@@ -36,7 +36,6 @@ void CheckEnumeration(const char* name, Enumeration value, Enumeration last)
 /** @throws InvalidArgument naming the property that is out of range */
 void CheckGrading(const Grading& grading, double edgeLength);
 
-/** Initial surface. */
 enum class InitializationType
 {
   EnclosingIcosahedron = 0,
@@ -45,7 +44,6 @@ enum class InitializationType
   InputSurface = 3
 };
 
-/** Features missed by coarser levels to recover. */
 enum class RecoveryType
 {
   NoRecovery = 0,
@@ -53,7 +51,6 @@ enum class RecoveryType
   RecoverObjectsAndCavities = 2
 };
 
-/** Components in the outputs. */
 enum class KeepComponentsType
 {
   AllComponents = 0,

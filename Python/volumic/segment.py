@@ -110,7 +110,7 @@ def set_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, console: Con
     surface.SetIsoValue(otsu.GetThreshold())
     minimum = loaded.range[0]
     padding = minimum < -1024 and otsu.GetHistogram().GetValue(0) > minimum
-    console.info(f"iso-value {number_text(otsu.GetThreshold())}, estimated by Otsu's threshold"
+    console.info(f"iso-value {number_text(otsu.GetThreshold())}, estimated by Otsu's method"
                  + (f" without padding voxels of value {number_text(minimum)}" if padding else "")
                  + "; set another value with --iso")
 

@@ -7,7 +7,7 @@
 
     levels     the surface of each level                                     Cranium.inv3
     views      the surface from outside, and cut open                        Cranium.inv3
-    graded     uniform triangles, and fewer within a tolerance               Cranium.inv3, --graded
+    graded     uniform triangles, and fewer within a tolerance               Cranium.inv3
     thin       uniform triangles, and smaller ones at thin parts             Cranium.inv3
     history    the curves of the paper's figure 5, with and without pyramid, Cranium.inv3
                with the paper's settings and with the defaults
@@ -20,12 +20,9 @@
 The paper's settings are four levels and no recovery.
 
 Cranium.inv3 is the CT of a skull of Debian's package invesalius-examples. --vessels names a scan of
-bright vessels and its iso-value; it may be repeated: the first scan is drawn as vessels.png, others
-as vessels-NAME.png, with the name of the file. --graded names another scan, its iso-value and a
-tolerance in its unit of length; it may be repeated and is drawn as graded-NAME.png. --label-map
-names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of Debian's package mricron-data. --tetrahedra
-names a .vtu with labels that the command has written. Pictures whose option is not given are not
-drawn. Each picture has less than 300 kB.
+bright vessels and its iso-value. --label-map names the atlas JHU-WhiteMatter-labels-1mm.nii.gz of
+Debian's package mricron-data, --tetrahedra a .vtu of labels that the command has written. A picture
+whose option is missing is not drawn. Each picture has less than 300 kB.
 """
 
 import argparse
@@ -59,7 +56,6 @@ GAP = 10  # pixels between panels, as in render.compose
 LARGEST = 300000  # bytes of a picture, limit
 GREY_STEP = 5  # colours are rounded to multiples: halves the file size
 SNAPSHOTS = (0, 50, 100, 250)  # iterations that are shown, before the converged surface
-START_ZOOM = 1.25  # the rounded box leaves the corners of its bounds empty
 AS_PAPER = "As in the paper: {} levels, no recovery"
 
 
@@ -147,8 +143,8 @@ def views(skull):
     return render.compose([row], [[(name,) for name in names]])
 
 
-def graded(scan, tolerance=0.5, unit=" mm"):
-    return beside_uniform(scan, f"Within a tolerance of {tolerance:g}{unit}", {"Tolerance": tolerance})
+def graded(skull):
+    return beside_uniform(skull, "Within a tolerance of 0.5 mm", {"Tolerance": 0.5})
 
 
 def thin(skull):
@@ -286,14 +282,9 @@ def compact(picture):
 SKULL_PICTURES = (levels, views, graded, thin, history, evolution)
 
 
-def further_name(picture, path):
-    """Return the name of a picture of another scan: the first word of its file name."""
-    return f"{picture}-" + os.path.basename(path).partition(".")[0].partition("_")[0]
-
-
-def write_picture(draw, scan, folder, name=None):
+def write_picture(draw, scan, folder):
     """Draw and write a picture; raise OSError if the file is too large."""
-    path = os.path.join(folder, (name or draw.__name__) + ".png")
+    path = os.path.join(folder, draw.__name__ + ".png")
     print(f"Drawing {path}", flush=True)
     render.write_png(compact(draw(scan)), path)
     size = os.path.getsize(path)
@@ -310,10 +301,7 @@ def main():
     parser.add_argument("--output", default=os.path.normpath(folder), help="default: Documentation")
     parser.add_argument("--only", nargs="+", choices=known, default=known, metavar="PICTURE",
                         help=", ".join(known))
-    parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"), action="append",
-                        default=[], help="may be repeated: vessels.png, then vessels-NAME.png")
-    parser.add_argument("--graded", nargs=3, metavar=("VOLUME", "ISO", "TOLERANCE"),
-                        action="append", default=[], help="may be repeated: graded-NAME.png")
+    parser.add_argument("--vessels", nargs=2, metavar=("VOLUME", "ISO"), help="for vessels.png")
     parser.add_argument("--label-map", metavar="FILE", help="for labels.png")
     parser.add_argument("--tetrahedra", metavar="FILE.vtu", help="for tetrahedra.png")
     parser.add_argument("--skull", nargs=2, metavar=("VOLUME", "ISO"), default=(SKULL, SKULL_ISO),
@@ -325,24 +313,11 @@ def main():
         skull = of_skull and Scan(arguments.skull[0], float(arguments.skull[1]))
         for draw in of_skull:
             write_picture(draw, skull, arguments.output)
-        scans = arguments.vessels if "vessels" in arguments.only else []
-        for number_of_scan, (path, iso) in enumerate(scans):
-            write_picture(vessels, Scan(path, float(iso)), arguments.output,
-                          further_name("vessels", path) if number_of_scan else "vessels")
-        for path, iso, tolerance in arguments.graded if "graded" in arguments.only else []:
-            draw = functools.partial(graded, tolerance=float(tolerance), unit="")
-            write_picture(draw, Scan(path, float(iso)), arguments.output,
-                          further_name("graded", path))
-        if "labels" in arguments.only and arguments.label_map:
-            write_picture(labels, arguments.label_map, arguments.output)
-        if "tetrahedra" in arguments.only and arguments.tetrahedra:
-            write_picture(tetrahedra, arguments.tetrahedra, arguments.output)
-        if "interfaces" in arguments.only:
-            write_picture(interfaces, None, arguments.output)
-        if "vessels" in arguments.only and not scans:
-            print("No --vessels: vessels*.png are not drawn")
-        if "graded" in arguments.only and not arguments.graded:
-            print("No --graded: graded-*.png are not drawn")
+        for draw, source in ((vessels, arguments.vessels), (labels, arguments.label_map),
+                             (tetrahedra, arguments.tetrahedra), (interfaces, "made grains")):
+            if source and draw.__name__ in arguments.only:
+                write_picture(draw, Scan(source[0], float(source[1])) if draw is vessels else source,
+                              arguments.output)
     except (Failure, ValueError, OSError) as error:
         sys.exit(f"figures.py: {error}")
 

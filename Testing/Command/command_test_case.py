@@ -99,10 +99,10 @@ class CommandTestCase(FolderTestCase):
                     if re.match(pattern, line):
                         break
                 process.send_signal(signal.SIGINT)
-                rest = process.stderr.read()
+                output = process.stderr.read()
             if process.returncode != 0:
-                self.assertEqual(process.returncode, 3, rest)
-                return rest
+                self.assertEqual(process.returncode, 3, output)
+                return output
         self.fail("All runs were too quick to be interrupted")
         return ""
 

@@ -45,8 +45,8 @@ class SlicesTest(ReadingTestCase):
         content = medical_files.mrc(noisy_ball(), SPACING)
         for name, packed in (("a.mrc", content), ("a.map.gz", gzip.compress(content))):
             self.check(self.read(name, packed), noisy_ball(), origin=(0, 0, 0))
-            self.cut(name, packed)
-        self.rejects_with("a.mrc", content, [(place, struct.pack("<i", value), ".") for place, value in (
+            self.rejects_truncated(name, packed)
+        self.rejects_with("a.mrc", content, [(offset, struct.pack("<i", value), ".") for offset, value in (
             (12, 77), (64, 7), (68, 1), (0, 0), (28, 0), (8, -18))])
 
 
@@ -66,7 +66,7 @@ class MeshesTest(ReadingTestCase):
     def test_truncated_meshes(self):
         from volumic.arrays import surface
         mesh = surface(ball("f4"), iso=ISO)
-        for suffix, rests in (("vtp", (0.5, -100)), ("vtk", (0.5, -100)), ("ply", (0.2, 0.7, -1)),
+        for suffix, sizes in (("vtp", (0.5, -100)), ("vtk", (0.5, -100)), ("ply", (0.2, 0.7, -1)),
                               ("stl", (0.5, -50, -1)), ("obj", ())):
             name = self.path(f"a.{suffix}")
             mesh.save(name)
@@ -74,9 +74,9 @@ class MeshesTest(ReadingTestCase):
             self.assertEqual((read.GetNumberOfPoints(), read.GetNumberOfPolys()),
                              (len(mesh.points), len(mesh.triangles)))
             content = self.content(name)
-            for rest in rests:
-                with self.subTest(suffix, rest=rest):
-                    self.rejects_mesh(name, content[:int(len(content) * rest) if 0 < rest else rest],
+            for size in sizes:
+                with self.subTest(suffix, size=size):
+                    self.rejects_mesh(name, content[:int(len(content) * size) if 0 < size else size],
                                       "truncated|damaged|cannot read")
 
     def test_polygons(self):

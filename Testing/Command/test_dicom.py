@@ -149,8 +149,8 @@ class SlicesTest(DicomTest):
         self.check(time=0)
         self.check(time=1, voxels=1000 - ball())
         self.rejects("there is no time 2", time=2)
-        said = self.run_command(self.path("a"), "--list-series").stdout
-        self.assertIn("36 slices of 26 x 22, 2 at each position (--time)", said)
+        printed = self.run_command(self.path("a"), "--list-series").stdout
+        self.assertIn("36 slices of 26 x 22, 2 at each position (--time)", printed)
 
     def test_two_series_of_one_study(self):
         self.series(range(0, 18, 2))
@@ -222,7 +222,7 @@ class FramesTest(DicomTest):
             more=[*more, *groups], **changes))
 
     @staticmethod
-    def place(k):
+    def plane_position(k):
         return element(0x20, 0x9113, "SQ", sequence(element(*position(k))))
 
     def test_enhanced(self):
@@ -232,7 +232,7 @@ class FramesTest(DicomTest):
             element(0x28, 0x9145, "SQ", sequence(element(0x28, 0x1052, "DS", "-100") +
                                                  element(0x28, 0x1053, "DS", "1")))]
         order = np.random.default_rng(1).permutation(SIZE[2])
-        own = [self.place(k) for k in order]
+        own = [self.plane_position(k) for k in order]
         self.frames(shared=shared, own=own, voxels=(ball() + 100)[order],
                     lacks=("position", "orientation"))
         self.check()
@@ -246,7 +246,8 @@ class FramesTest(DicomTest):
         names = sequence(*(element(0x62, 4, "US", number) + element(0x62, 5, "LO", name) + (
             element(0x62, 0xD, "US", red) if number == 1 else b"")
                            for number, name in ((1, "liver"), (2, "spleen"))))
-        own = [self.place(k) + element(0x62, 0xA, "SQ", sequence(element(0x62, 0xB, "US", segment)))
+        own = [self.plane_position(k)
+               + element(0x62, 0xA, "SQ", sequence(element(0x62, 0xB, "US", segment)))
                for segment in (1, 2) for k in range(SIZE[2])]
         self.frames(own=own, more=((8, 0x60, "CS", "SEG"), (0x62, 2, "SQ", names)), bits=1)
         bits = np.packbits(np.ravel(masks), bitorder="little").tobytes()
@@ -279,9 +280,9 @@ class DamageTest(DicomTest):
             self.series(syntax=syntax)
             self.check()
             content = dicom_slice(7, syntax=syntax)
-            for rest in (-1, -500, -1144, -1150, 300, 200, 140):
-                with self.subTest(syntax, rest=rest):
-                    self.rejects_slice(7, content[:rest], "truncated")
+            for size in (-1, -500, -1144, -1150, 300, 200, 140):
+                with self.subTest(syntax, size=size):
+                    self.rejects_slice(7, content[:size], "truncated")
         self.run_command(self.path("a"), self.path("o.stl"), "--iso", ISO)
 
     def test_empty_slice_files(self):
@@ -312,8 +313,8 @@ class DamageTest(DicomTest):
         more = struct.pack("<HH2sHI", 0xFFFC, 0xFFFC, b"OB", 0, 4) + bytes(4)
         self.write_bytes("a/IM17", content + more)
         self.check()
-        for place, count in ((pixels, 2), (pixels + 500, 8), (len(content), 3)):
-            self.rejects_slice(17, content[:place] + b"\x07" * count + content[place:],
+        for offset, count in ((pixels, 2), (pixels + 500, 8), (len(content), 3)):
+            self.rejects_slice(17, content[:offset] + b"\x07" * count + content[offset:],
                                "does not end after its pixels")
         self.rejects_slice(17, content[:pixels - 4] + struct.pack("<I", 572) + content[pixels:],
                            "does not end after its pixels")

@@ -108,8 +108,8 @@ class EndsTest(CommandTestCase):
             for side in sides - {0}:
                 axis, last = divmod(side - 1, 2)
                 plane = values.shape[2 - axis] - 2 if last else 1
-                places = points[triangles[faces == side]][..., axis]
-                self.assertLess(abs(places - plane).max(), 1e-12)
+                coordinates = points[triangles[faces == side]][..., axis]
+                self.assertLess(abs(coordinates - plane).max(), 1e-12)
 
     def sponge(self):
         """Return smooth noise."""

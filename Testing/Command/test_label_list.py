@@ -12,8 +12,8 @@ from command_test_case import make_image
 
 def box_of(voxels, label):
     """Return first and last index along x, y, z."""
-    places = np.argwhere(voxels == label)[:, ::-1]
-    return np.ravel(list(zip(places.min(0), places.max(0)))).tolist()
+    coordinates = np.argwhere(voxels == label)[:, ::-1]
+    return np.ravel(list(zip(coordinates.min(0), coordinates.max(0)))).tolist()
 
 
 class ListTest(LabelsTest):

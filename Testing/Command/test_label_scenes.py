@@ -88,19 +88,19 @@ class ScenesTest(LabelsTest):
         first = 0
         for i, (label, (name, file)) in enumerate(zip(COLORS, FILES.items())):
             surface, ply = read(self.path(f"a/{file}.vtp")), read(self.path(f"o/{file}.ply"))
-            places, triangles = points_of(surface).astype("f4"), triangles_of(surface)
+            coordinates, triangles = points_of(surface).astype("f4"), triangles_of(surface)
             self.assertEqual(nodes[i]["extras"], {"labels": [label], "stop_reason": "converged"})
             np.testing.assert_allclose(colors[i], [*linear(COLORS[label]), 1], atol=1e-9)
             # z is y in glTF, y is -z.
-            np.testing.assert_allclose(points_of(surfaces[i])[:, [0, 2, 1]] * (1, -1, 1), places,
+            np.testing.assert_allclose(points_of(surfaces[i])[:, [0, 2, 1]] * (1, -1, 1), coordinates,
                                        atol=1e-5)
             np.testing.assert_array_equal(triangles_of(surfaces[i]), triangles)
             which = parts[i][1]
-            np.testing.assert_array_equal(points[first:first + len(places)], places)
+            np.testing.assert_array_equal(points[first:first + len(coordinates)], coordinates)
             np.testing.assert_array_equal(corners[which] - first, triangles)
             self.assertEqual(set(used[which]), {(name, "#%02X%02X%02X" % COLORS[label])})
-            first += len(places)
-            np.testing.assert_array_equal(points_of(ply), places)
+            first += len(coordinates)
+            np.testing.assert_array_equal(points_of(ply), coordinates)
             np.testing.assert_array_equal(triangles_of(ply), triangles)
             rgb = vtk_to_numpy(ply.GetPointData().GetArray("RGB"))
             self.assertEqual({tuple(color) for color in rgb}, {COLORS[label]})
@@ -138,24 +138,24 @@ class ScenesTest(LabelsTest):
                      "--iso", ISO, "--unit", "nm")
 
     def test_units_and_size_for_printing(self):
-        said = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
+        printed = self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all").stderr
         low, high = np.transpose([np.reshape(self.bounds_of(label), (3, 2)) for label in BLOBS],
                                  (2, 0, 1))
-        size = re.search(r"the print is (\S+) x (\S+) x (\S+) mm\n", said)
+        size = re.search(r"size of the print: (\S+) x (\S+) x (\S+) mm\n", printed)
         np.testing.assert_allclose([float(n) for n in size.groups()],
                                    high.max(0) - low.min(0), atol=1.5)
-        said = self.run_command(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso",
-                                ISO, "--thin-parts").stderr
+        printed = self.run_command(self.ball_file(), self.path("b.3mf"), self.path("b.vtp"), "--iso",
+                                   ISO, "--thin-parts").stderr
         walls = vtk_to_numpy(read(self.path("b.vtp")).GetPointData().GetArray("Thickness"))
-        self.assertAlmostEqual(float(re.search("thinnest wall has (.*)$", said, re.M).group(1)),
+        self.assertAlmostEqual(float(re.search("minimum wall thickness (.*)$", printed, re.M).group(1)),
                                walls.min(), delta=2e-3 * walls.min())
 
     @unittest.skipUnless(shutil.which("assimp"), "Assimp is not installed")
     def test_assimp(self):
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
-        said = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
-                              text=True, check=True).stdout
-        self.assertRegex(said, rf"Faces: +{len(self.three_mf('a.3mf')[3])}\n")
+        printed = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
+                                 text=True, check=True).stdout
+        self.assertRegex(printed, rf"Faces: +{len(self.three_mf('a.3mf')[3])}\n")
 
 
 if __name__ == "__main__":

@@ -58,8 +58,8 @@ class LabelsTest(CommandTestCase):
 
     def bounds_of(self, label):
         """Return the bounds of voxel centres of a label in world coordinates."""
-        places = np.argwhere(label_voxels() == label)[:, ::-1] * SPACING + ORIGIN
-        return np.ravel(list(zip(places.min(0), places.max(0))))
+        coordinates = np.argwhere(label_voxels() == label)[:, ::-1] * SPACING + ORIGIN
+        return np.ravel(list(zip(coordinates.min(0), coordinates.max(0))))
 
 
 class OutputsTest(LabelsTest):
@@ -316,10 +316,10 @@ class RunTest(LabelsTest):
             self.assertEqual(process.stderr.count("looks like a label map"), count, process.stderr)
 
     def test_interrupted_run_writes_surfaces(self):
-        rest = self.interrupted(
+        output = self.interrupted(
             r"Computing surfaces: +[5-8]\d %", self.many_labels(4), self.path("o/"), "--labels",
             "all", "--threads", "1", "--finest", "-1", "--report", self.path("r.json"))
-        self.assertIn("unfinished (cancelled): the current surfaces were written", rest)
+        self.assertIn("unfinished (cancelled): the current surfaces were written", output)
         report = json.loads(self.content("r.json"))
         self.assertFalse(report["finished"])
         self.assertEqual(len(report["labels"]), 64)

@@ -113,15 +113,15 @@ class TiffTest(MicroscopyTestCase):
         self.check(volume, np.stack([BALL, BALL + 1]))
         self.assertEqual(volume.components, "channels")
         self.check(self.read("a.tif", component=1), BALL + 1)
-        self.cut("a.tif", self.content("a.tif"), rests=(0.5,))
+        self.rejects_truncated("a.tif", self.content("a.tif"), sizes=(0.5,))
         times = {"imagej": True, "metadata": {"axes": "TZYX"}}
         self.check(self.written(np.stack([BALL, BALL + 1]), choice={"time": 1}, **times), BALL + 1)
         self.rejects("a.tif", "2 volumes .*choose one with --time N, 0 to 1")
 
     def test_ome(self):
-        told = {"axes": "CZYX", "PhysicalSizeX": 0.5, "PhysicalSizeY": 250, "PhysicalSizeZ": 2,
-                "PhysicalSizeYUnit": "nm"}
-        volume = self.written(np.stack([BALL, BALL + 1]), "a.ome.tif", ome=True, metadata=told)
+        metadata = {"axes": "CZYX", "PhysicalSizeX": 0.5, "PhysicalSizeY": 250, "PhysicalSizeZ": 2,
+                    "PhysicalSizeYUnit": "nm"}
+        volume = self.written(np.stack([BALL, BALL + 1]), "a.ome.tif", ome=True, metadata=metadata)
         self.check(volume, np.stack([BALL, BALL + 1]), spacing=(0.5, 0.25, 2))
         self.assertEqual((volume.unit, volume.components), ("um", "channels"))
         for axes in ("TZCYX", "CTZYX"):
@@ -269,8 +269,8 @@ class OmeZarrTest(MicroscopyTestCase, CommandTestCase):
         self.image()
         report = self.report(self.path("a.ome.zarr"), "--iso", ISO)
         self.assertEqual((report["components"], report["input"]["dimensions"]), (1, SIZE.tolist()))
-        said = self.run_command(self.path("a.ome.zarr/0"), self.path("o.stl"), status=1).stderr
-        self.assertRegex(said, "the array of a level; open the group that contains it, .*a.ome.zarr\n")
+        printed = self.run_command(self.path("a.ome.zarr/0"), self.path("o.stl"), status=1).stderr
+        self.assertRegex(printed, "the array of a level; open the group that contains it, .*a.ome.zarr\n")
 
     def test_missing_and_truncated_chunks(self):
         self.image(np.random.default_rng(3).integers(1, 9999, BALL.shape).astype("u2"))
@@ -279,9 +279,9 @@ class OmeZarrTest(MicroscopyTestCase, CommandTestCase):
             chunk = self.path("a.ome.zarr/0/1/1/1")
         with open(chunk, "rb") as file:
             content = file.read()
-        for rest in (0, 20, len(content) - 40):
+        for size in (0, 20, len(content) - 40):
             with open(chunk, "wb") as file:
-                file.write(content[:rest])
+                file.write(content[:size])
             self.rejects("a.ome.zarr", "truncated|damaged")
         os.remove(chunk)
         volume = self.read("a.ome.zarr")

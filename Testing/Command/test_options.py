@@ -141,7 +141,7 @@ class OptionTableTest(CommandTestCase):
                  "--edge-length", "0.01"),
                 ("--tolerance is 1, but --no-snap is given, so the surface", "--tolerance", "1",
                  "--no-snap"),
-                ("--thin-parts is given and --edge-length is 1: .* Set --edge-length to 0",
+                ("--thin-parts is given and --edge-length is 1, .* Set --edge-length to 0",
                  "--thin-parts", "--edge-length", "1")):
             self.rejects(reason, self.ball_file(), self.path("a.stl"), "--iso", ISO, *options)
 
@@ -283,15 +283,15 @@ class RunTest(CommandTestCase):
             process.send_signal(signal.SIGTERM)
             time.sleep(0.02)
             process.send_signal(signal.SIGTERM)
-            rest = process.stderr.read()
-        self.assertEqual(process.returncode, 3, rest)
+            output = process.stderr.read()
+        self.assertEqual(process.returncode, 3, output)
         self.assertGreater(read(self.path("a.vtp")).GetNumberOfPolys(), 0)
 
     def test_interrupted_run_writes_surface(self):
-        rest = self.interrupted(
+        output = self.interrupted(
             "Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
             "--convergence", "0", "--report", self.path("r.json"))
-        self.assertIn("unfinished (cancelled)", rest)
+        self.assertIn("unfinished (cancelled)", output)
         report = json.loads(self.content("r.json"))
         self.assertEqual((report["finished"], report["stop_reason"]), (False, "cancelled"))
         surface = read(self.path("a.vtp"))

@@ -69,9 +69,9 @@ class FullDiskTest(OutputsTest):
             self.assertFalse(os.path.exists(self.path("l")), arguments)
 
     def test_other_files_are_written(self):
-        said = self.segment(self.path("a.obj"), self.path("b.obj"), "--history", self.path("h.csv"),
-                            status=1, preexec_fn=largest_file(20000)).stderr
-        self.assertRegex(said, r"^volumic: /.*/a.obj: .*\nvolumic: /.*/b.obj: .*\n$")
+        printed = self.segment(self.path("a.obj"), self.path("b.obj"), "--history", self.path("h.csv"),
+                               status=1, preexec_fn=largest_file(20000)).stderr
+        self.assertRegex(printed, r"^volumic: /.*/a.obj: .*\nvolumic: /.*/b.obj: .*\n$")
         self.assertEqual(sorted(os.listdir(self.folder)), ["ball.vti", "h.csv"])
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
@@ -154,17 +154,17 @@ class InvalidNamesTest(OutputsTest):
 class WrittenTest(OutputsTest):
     def test_progress_of_writing(self):
         names = [self.path("a." + suffix) for suffix in ("vtp", "vtk", "stl")]
-        said = self.run_command(*self.words[:-1], "--progress", *names).stderr
+        printed = self.run_command(*self.words[:-1], "--progress", *names).stderr
         for name in names:
-            self.assertRegex(said, rf"(?m)^Writing {name}:  *\d+ %$")
+            self.assertRegex(printed, rf"(?m)^Writing {name}:  *\d+ %$")
 
     def test_point_arrays_are_written_or_reported(self):
         names = ("a.vtp", "a.ply", "a.stl", "b.stl", "a.obj", "a.3mf")
-        said = self.run_command(self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
-                                *map(self.path, names)).stderr
-        lost = re.findall(r"(.\.\w+): \.\w+ does not support the point arrays Thickness, ball; use "
-                          r"\.vtp, \.vtk or \.ply", said)
-        self.assertEqual(lost, ["a.stl", "a.obj", "a.3mf"])
+        printed = self.run_command(self.volume, "--iso", ISO, "--probe", self.volume, "--thin-parts",
+                                   *map(self.path, names)).stderr
+        reported = re.findall(r"(.\.\w+): \.\w+ does not support the point arrays Thickness, ball; use "
+                              r"\.vtp, \.vtk or \.ply", printed)
+        self.assertEqual(reported, ["a.stl", "a.obj", "a.3mf"])
         whole = read(self.path("a.vtp")).GetPointData()
         head, body = self.content("a.ply").split(b"end_header\n")
         self.assertIn(b"property float Thickness\nproperty double ball\nelement face", head)
@@ -185,9 +185,9 @@ class WrittenTest(OutputsTest):
         voxels = np.minimum(ball(), 900)
         voxels[:] = voxels[len(voxels) // 2]  # a cylinder, which leaves the volume at both ends
         self.write(vtkXMLImageDataWriter(), "tube.vti", make_image(voxels))
-        said = self.run_command(self.path("tube.vti"), "--iso", ISO, "--ends", "marked", *map(
+        printed = self.run_command(self.path("tube.vti"), "--iso", ISO, "--ends", "marked", *map(
             self.path, ("a.vtp", "a.stl", "a.ply"))).stderr
-        self.assertIn("a.ply: .ply does not support numbers of caps", said)
+        self.assertIn("a.ply: .ply does not support numbers of caps", printed)
         whole = read(self.path("a.vtp"))
         caps = vtk_to_numpy(whole.GetCellData().GetArray("Cap"))
         solids = re.findall(r"(?s)solid (\w+)\n(.*?)endsolid \1\n", self.content("a.stl").decode())

@@ -19,9 +19,9 @@ class ProbeTest(CommandTestCase):
         """Write a linear function of world coordinates on a rotated grid that covers all of the
         ball but a corner."""
         index = np.stack(np.indices((20, 30, 30))[::-1], axis=-1)
-        places = np.array([12., 3., 8.]) + (index * (0.8, 0.7, 0.9)) @ np.asarray(TURNED).T
+        coordinates = np.array([12., 3., 8.]) + (index * (0.8, 0.7, 0.9)) @ np.asarray(TURNED).T
         return self.write(vtkXMLImageDataWriter(), name,
-                          make_image(function(places), (0.8, 0.7, 0.9), (12, 3, 8), TURNED))
+                          make_image(function(coordinates), (0.8, 0.7, 0.9), (12, 3, 8), TURNED))
 
     def values(self, *options):
         self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", *options)
@@ -49,9 +49,9 @@ class ProbeTest(CommandTestCase):
 
     def test_points_outside_and_errors(self):
         far = self.write(vtkXMLImageDataWriter(), "far.vti", make_image(ball(), origin=(1e3, 0, 0)))
-        said = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--probe",
-                                far).stderr
-        self.assertRegex(said, r"far.vti: (\d+) of \1 vertices are outside this volume")
+        printed = self.run_command(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--probe",
+                                   far).stderr
+        self.assertRegex(printed, r"far.vti: (\d+) of \1 vertices are outside this volume")
         surface = read(self.path("a.vtp"))
         self.assertTrue(np.isnan(vtk_to_numpy(surface.GetPointData().GetArray("far"))).all())
         self.rejects("none.vti: no such file", self.ball_file(), self.path("a.vtp"), "--probe",
@@ -75,9 +75,9 @@ class ProbeTest(CommandTestCase):
         header = medical_files.nrrd_header(self.twice_x(), SPACING, ORIGIN * (-1, -1, 1),
                                            np.diag((-1., -1, 1)), "raw", "little")
         self.write_bytes("lps.nrrd", header + b"\n" + self.twice_x().tobytes())
-        said = self.run_command(self.path("a.nii"), self.path("a.vtp"), "--iso", "500.5", "--probe",
-                                self.path("lps.nrrd"), "--probe", self.path("um.nii")).stderr
-        self.assertNotIn("lie outside", said)
+        printed = self.run_command(self.path("a.nii"), self.path("a.vtp"), "--iso", "500.5", "--probe",
+                                   self.path("lps.nrrd"), "--probe", self.path("um.nii")).stderr
+        self.assertNotIn("lie outside", printed)
         surface = read(self.path("a.vtp"))
         points = vtk_to_numpy(surface.GetPoints().GetData())
         for name in ("lps", "um"):

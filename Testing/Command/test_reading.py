@@ -61,11 +61,11 @@ class MetaImageTest(ReadingTestCase):
 
     def test_damage(self):
         content = META + noisy_ball().tobytes()
-        self.cut("a.mha", content, rests=(0.5, -10, -1))
+        self.rejects_truncated("a.mha", content, sizes=(0.5, -10, -1))
         self.rejects("a.mha", "too long: it has 20595 bytes", content + b"123")
         packed = packed_meta(noisy_ball().tobytes())
-        self.cut("b.mha", packed, "packed data are|truncated", rests=(0.5, -10, -1))
-        self.flipped("b.mha", packed, packed.index(b"LOCAL") + 10)
+        self.rejects_truncated("b.mha", packed, "packed data are|truncated", sizes=(0.5, -10, -1))
+        self.rejects_bit_flips("b.mha", packed, packed.index(b"LOCAL") + 10)
         self.rejects_with("a.mha", content, (
             (b"NDims = 3", b"NDims = 2", "NDims is 2"), (b"SHORT", b"SHOST", "MET_SHOST"),
             (b"MSB = False", b"MSB = Galse", "is \"galse\""), (b"26 22 18", b"26 22 0 ", "DimSize"),
@@ -80,8 +80,8 @@ class MetaImageTest(ReadingTestCase):
         header = META.replace(b"BinaryData = True", b"BinaryData = False")
         text = " ".join(map(str, ball().ravel())).encode()
         self.check(self.read("a.mha", header + text))
-        self.cut("a.mha", header + text, "it has [0-9]+ values, its header requires 10296",
-                 rests=(0.5,))
+        self.rejects_truncated("a.mha", header + text, "it has [0-9]+ values, its header requires 10296",
+                               sizes=(0.5,))
         self.rejects("a.mha", "damaged", header + b"5 " + text)
         self.rejects("a.mha", "not a number", header + b"5x " + text[2:])
 
@@ -148,17 +148,18 @@ class NrrdTest(ReadingTestCase):
 
     def test_damage(self):
         data = noisy_ball().tobytes()
-        self.cut("a.nrrd", nrrd_header() + b"\n" + data)
+        self.rejects_truncated("a.nrrd", nrrd_header() + b"\n" + data)
         self.rejects("a.nrrd", "too long", nrrd_header() + b"\n1" + data)
         for encoding, pack, start in (("gzip", gzip.compress, 11), ("bzip2", bz2.compress, 1)):
             header = nrrd_header(encoding)
             content = header + b"\n" + pack(data)
-            self.cut("b.nrrd", content)
-            self.flipped("b.nrrd", content, len(header) + start)
+            self.rejects_truncated("b.nrrd", content)
+            self.rejects_bit_flips("b.nrrd", content, len(header) + start)
             self.rejects("b.nrrd", "exceed the 20592 bytes", header + b"\n" + pack(data + b"more"))
         self.rejects_with("a.nrrd", nrrd_header() + b"\n" + data, (
             (b"endian: little", b"endian: lattle", "lattle"), (b"sizes: 26", b"sizes: 0", "sizes"),
-            (b"endian:", b"endiao:", "\"endiao\" is not a NRRD field"), (b"NRRD", b"NRRT", "not a NRRD file"),
+            (b"endian:", b"endiao:", "\"endiao\" is not a NRRD field"),
+            (b"NRRD", b"NRRT", "not a NRRD file"),
             (b"dimension: 3", b"dimension: 4", "dimension 4"), (b"short", b"shirt", "shirt"),
             (b"(0.5", b"(nan", "is not positive"), (b"(0.5,0", b"(0.5 0", "directions|convert")))
 
@@ -216,11 +217,11 @@ class NiftiTest(ReadingTestCase):
 
     def test_damage(self):
         content = medical_files.nifti(noisy_ball(), SPACING)
-        self.cut("a.nii", content)
+        self.rejects_truncated("a.nii", content)
         self.rejects("a.nii", "too long", content + b"1")
         packed = gzip.compress(content)
-        self.cut("a.nii.gz", packed)
-        self.flipped("a.nii.gz", packed, 400)
+        self.rejects_truncated("a.nii.gz", packed)
+        self.rejects_bit_flips("a.nii.gz", packed, 400)
         self.rejects_with("b.nii", content, (
             (70, struct.pack("<h", 999), "999"), (70, struct.pack("<h", 0), "cannot be read|not supp"),
             (40, struct.pack("<h", 9), "."), (46, struct.pack("<h", 0), "dimensions 26 x 22 x 0"),
@@ -239,7 +240,7 @@ class OtherFormatsTest(ReadingTestCase):
         for name, packed in (("a.mgh", content), ("a.mgz", gzip.compress(content))):
             volume = self.check(self.read(name, packed), direction=TURNED)
             self.assertEqual((volume.space, volume.unit), ("RAS", "mm"))
-            self.cut(name, packed)
+            self.rejects_truncated(name, packed)
         self.read("b.mgh", content + b"what FreeSurfer writes behind the voxels")
 
     def test_minc(self):
@@ -257,7 +258,7 @@ class OtherFormatsTest(ReadingTestCase):
             for name, value in (("image-min", -32768.), ("image-max", 32767.)):
                 file.createVariable(name, "d", ()).assignValue(value)
         self.check(self.read("a.mnc"), ball("f4"))
-        self.cut("a.mnc", self.content("a.mnc"), ".", rests=(0.5, 90))
+        self.rejects_truncated("a.mnc", self.content("a.mnc"), ".", sizes=(0.5, 90))
         self.rejects("b.mnc", "crashed|cannot be read", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 9)
 
     def test_numpy(self):
@@ -268,7 +269,7 @@ class OtherFormatsTest(ReadingTestCase):
         np.savez(self.path("d.npz"), x=voxels, y=voxels + 1)
         self.rejects("d.npz", "the arrays are x, y; choose one with --array")
         self.check(self.read("d.npz", array="y"), voxels + 1, spacing=(1, 1, 1), origin=(0, 0, 0))
-        self.cut("a.npy", self.content("a.npy"), ".")
+        self.rejects_truncated("a.npy", self.content("a.npy"), ".")
         np.save(self.path("e.npy"), np.array([None]), allow_pickle=True)
         self.rejects("e.npy", "cannot be read")
         np.save(self.path("f.npy"), voxels[0])
@@ -289,8 +290,8 @@ class OtherFormatsTest(ReadingTestCase):
             self.check(volume, voxels, origin=(0, 0, 0))
             self.assertEqual((volume.space, volume.unit), ("LAS", "mm"))
         content = medical_files.inv3(noisy_ball(), SPACING)
-        self.cut("a.inv3", content, "truncated|damaged|cannot be read")
-        self.flipped("a.inv3", content, 100)
+        self.rejects_truncated("a.inv3", content, "truncated|damaged|cannot be read")
+        self.rejects_bit_flips("a.inv3", content, 100)
         voxels = ("matrix.dat", noisy_ball().tobytes())
 
         def plist(**changes):

@@ -66,8 +66,8 @@ class MesherTest(SolidsTest):
             surface = read(self.path("a.vtp"))
             sides = vtk_to_numpy(surface.GetCellData().GetArray("BoundaryLabels"))
             sides = sides[surface.GetNumberOfLines():]
-            at = {tuple(place): i for i, place in enumerate(points.tolist())}
-            numbers = np.array([at[tuple(place)] for place in points_of(surface).tolist()])
+            at = {tuple(point): i for i, point in enumerate(points.tolist())}
+            numbers = np.array([at[tuple(point)] for point in points_of(surface).tolist()])
             faces = faces_between(corners, labels)
             found = {}
             for triangle, side in zip(numbers[triangles_of(surface)].tolist(), sides.tolist()):
@@ -115,14 +115,14 @@ class MesherTest(SolidsTest):
                      for cap in (1, 2)}
             self.assertGreater(min(map(len, faces.values())), 20)
             mesh = inp_mesh(self.path("a.inp"))
-            places = np.array([mesh.nodes[i + 1] for i in range(len(mesh.nodes))])
+            coordinates = np.array([mesh.nodes[i + 1] for i in range(len(mesh.nodes))])
             for name, found in {**faces, "z_max": faces["cap_1"] | faces["cap_2"]}.items():
                 self.assertEqual({frozenset(tuple(np.round(mesh.nodes[i], 6).tolist())
                                             for i in face) for face in mesh.surfaces[name]}, found)
                 self.assertEqual(mesh.sets["*NSET", name], set().union(*mesh.surfaces[name]))
             plane = ORIGIN[2] + 16 * SPACING[2]
             self.assertEqual(mesh.sets["*NSET", "z_max"],
-                             set((1 + np.flatnonzero(abs(places[:, 2] - plane) < 1e-9)).tolist()))
+                             set((1 + np.flatnonzero(abs(coordinates[:, 2] - plane) < 1e-9)).tolist()))
             _, _, surfaces = msh(self.path("a.msh"))
             self.assertEqual({name: len(found) for name, found in surfaces.items()},
                              {"object_to_outside": np.count_nonzero(caps == 0),
@@ -277,23 +277,23 @@ class MesherTest(SolidsTest):
 
     def test_failing_mesher(self):
         """Other files are written, and no temporary files remain."""
-        for script, said in (("echo sorry; exit 3", r"a.vtu: tetgen failed \(exit code 3\): sorry"),
-                             ("kill -9 $$", r"a.vtu: tetgen failed \(signal 9\)"),
-                             ("exit 0", "a.vtu: the mesher created no tetrahedra")):
+        for script, printed in (("echo sorry; exit 3", r"a.vtu: tetgen failed \(exit code 3\): sorry"),
+                                ("kill -9 $$", r"a.vtu: tetgen failed \(signal 9\)"),
+                                ("exit 0", "a.vtu: the mesher created no tetrahedra")):
             messages, files = self.run_script(script)
-            self.assertRegex(messages, said)
+            self.assertRegex(messages, printed)
             self.assertEqual(files, ["a.vtp"])
 
     def test_mesher_is_stopped(self):
         """By one signal, by two signals (as timeout sends them), and by the time limit."""
-        for script, said, *options in (
+        for script, printed, *options in (
                 ("kill -INT $PPID; exec sleep 100", "a.vtu: interrupted while tetgen was running"),
                 ("kill -TERM $PPID; kill -TERM $PPID; exec sleep 100",
                  "a.vtu: interrupted while tetgen was running"),
                 ("exec sleep 100", "a.vtu: time limit reached while tetgen was running",
                  "--time-limit", 2)):
             messages, files = self.run_script(script, *options)
-            self.assertRegex(messages, said)
+            self.assertRegex(messages, printed)
             self.assertEqual(files, ["a.vtp"])
 
     def test_too_many_tetrahedra_fail(self):
@@ -307,17 +307,17 @@ class MesherTest(SolidsTest):
             mesh = "\n".join(["Vertices", "4", "0 0 0 0", "1 0 0 0", "0 1 0 0", f"0 0 {height} 0",
                               "Tetrahedra", "3",
                               *(f"1 2 3 4 {label}" for label in (1, 2, 4)), "End"])
-            said, _ = self.run_script(f"cat > surface.1.mesh <<.\n{mesh}\n.", status=0)
-            self.assertRegex("".join(re.findall("warning: the minimum.*", said)), messages)
+            printed, _ = self.run_script(f"cat > surface.1.mesh <<.\n{mesh}\n.", status=0)
+            self.assertRegex("".join(re.findall("warning: the minimum.*", printed)), messages)
 
 
 class OptionsTest(SolidsTest):
     def test_missing_mesher_fails_before_reading(self):
         environment = {**os.environ, "PATH": self.folder}
-        for options, said in (((), r"require TetGen or gmsh; .* \(Debian: apt install tetgen\)"),
-                              (("--mesher", "gmsh"), r"gmsh is not installed \(Debian: apt")):
+        for options, printed in (((), r"require TetGen or gmsh; .* \(Debian: apt install tetgen\)"),
+                                 (("--mesher", "gmsh"), r"gmsh is not installed \(Debian: apt")):
             for name in ("a.vtu", "a.inp"):
-                self.rejects(said, self.path("missing.vti"), self.path(name), *options,
+                self.rejects(printed, self.path("missing.vti"), self.path(name), *options,
                              env=environment)
 
 

@@ -59,22 +59,22 @@ class SpaceTest(CommandTestCase):
             if "nii" in volume:
                 volume = self.nifti({"mm": 2, "um": 3, "": 0}[unit])
             with self.subTest(volume, unit=unit):
-                said, report = self.run_to("vtp", volume)
+                printed, report = self.run_to("vtp", volume)
                 facts = report["input"]
                 self.assertEqual((facts["space"], facts["unit"]), (space, unit))
                 self.assertEqual((facts["file_space"], facts["file_unit"]), (space, unit))
                 self.assertEqual(self.fields(), [space or None, unit or None])
                 text = ", ".join(f"{what} {is_}" for what, is_ in
                                  (("space", space), ("unit", unit)) if is_)
-                self.assertIn(f"{'; ' if text else ''}{text}\n", said)
+                self.assertIn(f"{'; ' if text else ''}{text}\n", printed)
 
     def test_space(self):
         volume = self.nifti(2)
         self.run_to("vtp", volume)
         np.testing.assert_allclose(self.middle(), MIDDLE, atol=0.1)
-        said, report = self.run_to("vtp", volume, "--space", "LPS", "--write-volume",
-                                   self.path("w.vti"))
-        self.assertIn("space LPS (of the file: RAS), unit mm\n", said)
+        printed, report = self.run_to("vtp", volume, "--space", "LPS", "--write-volume",
+                                      self.path("w.vti"))
+        self.assertIn("space LPS (of the file: RAS), unit mm\n", printed)
         self.assertEqual(report["input"]["file_space"], "RAS")
         np.testing.assert_allclose(self.middle(), MIDDLE * [-1, -1, 1], atol=0.1)
         self.assertEqual(self.fields(), ["LPS", "mm"])
@@ -91,15 +91,15 @@ class SpaceTest(CommandTestCase):
     def test_unit_and_scale(self):
         volume = self.nifti(3)
         plain = self.run_to("vtp", volume)[1]
-        said, report = self.run_to("vtp", volume, "--unit", "mm")
-        self.assertIn("unit mm (of the file: um), lengths of the file times 0.001\n", said)
+        printed, report = self.run_to("vtp", volume, "--unit", "mm")
+        self.assertIn("unit mm (of the file: um), lengths of the file times 0.001\n", printed)
         self.assertAlmostEqual(report["area"] / plain["area"], 1e-6, delta=1e-11)
         np.testing.assert_allclose(self.middle(), MIDDLE / 1000, atol=1e-4)
         np.testing.assert_allclose(report["input"]["spacing"], SPACING / 1000)
         self.assertEqual(self.fields(), ["RAS", "mm"])
-        said, scaled = self.run_to("vtp", volume, "--scale", "0.001")
+        printed, scaled = self.run_to("vtp", volume, "--scale", "0.001")
         self.assertEqual((scaled["area"], scaled["input"]["unit"]), (report["area"], "mm"))
-        said, scaled = self.run_to("vtp", volume, "--scale", "3")
+        printed, scaled = self.run_to("vtp", volume, "--scale", "3")
         self.assertEqual((scaled["input"]["unit"], self.fields()), ("", ["RAS", None]))
         self.rejects("--unit mm: the file does not state its unit; use --scale", self.ball_file(),
                      self.path("a.stl"), "--iso", ISO, "--unit", "mm")

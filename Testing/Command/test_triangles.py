@@ -20,14 +20,14 @@ class TrianglesTest(CommandTestCase):
         return read(self.path("a.vtp")).GetNumberOfPolys(), process.stderr
 
     def test_number_of_triangles(self):
-        whole, said = self.triangles(4000)
-        self.assertTrue(4000 / 1.1 <= whole <= 1.1 * 4000, said)
-        self.assertRegex(said, rf"edge length [0-9.]+: {whole} triangles")
-        uniform = int(re.search("tolerance 0: ([0-9]+) triangles", said).group(1))
+        whole, printed = self.triangles(4000)
+        self.assertTrue(4000 / 1.1 <= whole <= 1.1 * 4000, printed)
+        self.assertRegex(printed, rf"edge length [0-9.]+: {whole} triangles")
+        uniform = int(re.search("tolerance 0: ([0-9]+) triangles", printed).group(1))
         for share in (1.0, 0.5, 0.1):
-            found, said = self.triangles(int(share * uniform))
-            self.assertTrue(share * uniform / 1.1 <= found <= share * uniform * 1.1, said)
-            self.assertIn(f": {found} triangles", said)
+            found, printed = self.triangles(int(share * uniform))
+            self.assertTrue(share * uniform / 1.1 <= found <= share * uniform * 1.1, printed)
+            self.assertIn(f": {found} triangles", printed)
 
     def test_a_sponge(self):
         """No tolerance yields few triangles."""
@@ -35,8 +35,8 @@ class TrianglesTest(CommandTestCase):
         waves = np.sin(x) * np.cos(y) + np.sin(y) * np.cos(z) + np.sin(z) * np.cos(x)
         sponge = self.write(vtkXMLImageDataWriter(), "sponge.vti",
                             make_image(waves.astype("f4"), (1, 1, 1)))
-        found, said = self.triangles(2500, volume=sponge, iso=0)
-        self.assertTrue(2500 / 1.1 <= found <= 2500 * 1.1, said)
+        found, printed = self.triangles(2500, volume=sponge, iso=0)
+        self.assertTrue(2500 / 1.1 <= found <= 2500 * 1.1, printed)
 
     def test_labels(self):
         """Interfaces are stored once in a mesh and twice in a folder."""

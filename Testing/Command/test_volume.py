@@ -89,12 +89,12 @@ class ResampledVolumeTest(WritingTestCase):
                                "0.31,0.7,0.4", messages="resampled from")
         self.assertEqual(written.GetSpacing(), (0.31, 0.7, 0.4))
         np.testing.assert_allclose(written.GetCenter(), image.GetCenter(), atol=1e-6)
-        places = np.array([written.GetPoint(i) for i in range(0, written.GetNumberOfPoints(), 7)])
+        coordinates = np.array([written.GetPoint(i) for i in range(0, written.GetNumberOfPoints(), 7)])
         low, high = np.reshape(image.GetBounds(), (3, 2)).T
-        inside = ((places > low) & (places < high)).all(1)
+        inside = ((coordinates > low) & (coordinates < high)).all(1)
         self.assertGreater(inside.sum(), 50)
         np.testing.assert_allclose(voxels_of(written).ravel()[::7][inside],
-                                   (places @ slope)[inside], atol=2e-4)
+                                   (coordinates @ slope)[inside], atol=2e-4)
 
     def test_labels_use_nearest_neighbour(self):
         labels = np.random.default_rng(3).integers(0, 9, (6, 12, 14)).astype("u2")

@@ -16,7 +16,7 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
 
 using Where = std::function<bool(int i, int j, int k)>;
 
-/** Outside a circle about the axis along z, as beyond the field of view of a CT. */
+/** Return whether a voxel is outside a circle around the z axis, as the field of view of a CT. */
 bool OutsideView(int i, int j, int)
 {
   return std::hypot(i - BallCentre[0], j - BallCentre[1]) > 17.0;
@@ -67,7 +67,7 @@ vtkSmartPointer<vtkImageData> BallBlanked(const Where& where, unsigned char ghos
   return image;
 }
 
-/** With what it warns of unprinted. */
+/** A filter that does not print its warnings. */
 struct QuietSurface
 {
   vtkNew<vtkVolumeToSurface> Filter;
@@ -83,7 +83,7 @@ struct QuietSurface
 };
 }
 
-TEST(NaNVoxels, OutsideTheViewChangeNothing)
+TEST(NaNVoxels, OutsideTheFieldOfViewHaveNoEffect)
 {
   const auto image = BallWith(NaN, OutsideView);
   for (const int initialization : { vtkDeformableSurface::EnclosingIcosahedron,
@@ -108,7 +108,7 @@ TEST(NaNVoxels, CutTheObject)
   EXPECT_GT(bounds[1], 19.0);
 }
 
-TEST(NaNVoxels, AreToldOnceWithTheirNumber)
+TEST(NaNVoxels, AreReportedOnceWithTheirNumber)
 {
   const auto image = BallWith(NaN, Right);
   QuietSurface surface;
@@ -117,7 +117,7 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
   EXPECT_EQ(CountOf(told, "NaN voxels"), 1) << told;
   EXPECT_TRUE(Has(told, "array 'Voxels' has 32000 NaN voxels (50 %), the first at (20, 0, 0)"));
 
-  // Of a pyramid it is the pyramid that tells it; of one made by hand, nobody has.
+  // vtkImagePyramid reports them. For other pyramids vtkDeformableSurface does.
   vtkNew<vtkImagePyramid> pyramid;
   const MessagesOf warnings(pyramid, vtkCommand::WarningEvent);
   pyramid->SetInputData(image);
@@ -139,15 +139,15 @@ TEST(NaNVoxels, AreToldOnceWithTheirNumber)
   }
 }
 
-TEST(BlankedVoxels, AreAsNaNWithoutAWord)
+TEST(BlankedVoxels, AreBackgroundWithoutAWarning)
 {
-  // Points, points all of whose cells are hidden, and cells that are the voxels.
+  // Hidden points, points whose cells are all hidden, and hidden cells as voxels.
   const auto amongCells = BallImage(Size, Size, Size);
   vtkUnsignedCharArray* hidden =
     AddGhosts(amongCells->GetCellData(), amongCells->GetNumberOfCells());
   for (vtkIdType cell = 0; cell < amongCells->GetNumberOfCells(); ++cell)
   {
-    // The points at 20 are corners of the cells at 19, which are seen.
+    // The points at 20 are corners of the visible cells at 19.
     hidden->SetValue(cell, cell % (Size - 1) >= 19 ? vtkDataSetAttributes::HIDDENCELL : 0);
   }
   const auto cells = vtkSmartPointer<vtkImageData>::New();
@@ -169,7 +169,7 @@ TEST(BlankedVoxels, AreAsNaNWithoutAWord)
   }
 }
 
-TEST(BlankedVoxels, DuplicatesAreNone)
+TEST(BlankedVoxels, DuplicatesAreNotBlanked)
 {
   QuietSurface requested;
   requested.Of(BallImage(Size, Size, Size));

@@ -15,7 +15,7 @@ TEST(DeformableSurface, FindsABallInAnImage)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "EulerCharacteristic"), 2);
 }
 
-TEST(DeformableSurface, ComesBackToWorldCoordinates)
+TEST(DeformableSurface, IsInWorldCoordinates)
 {
   const auto image = BallImage(40, 36, 40, 0.3);
   image->SetExtent(5, 44, -9, 26, 100, 139);
@@ -45,14 +45,14 @@ TEST(DeformableSurface, ClosesAtTheBorderOfTheImage)
   }
 }
 
-TEST(DeformableSurface, IsTheSameBitsForAnyNumberOfThreadsAndAnyRun)
+TEST(DeformableSurface, IsBitIdenticalForAnyNumberOfThreadsAndRuns)
 {
   const auto image = BallImage(48, 48, 48);
   const auto one = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
   for (const int threads : { 1, 2, 3 })
   {
-    const auto other = SurfaceOf(image,
-      [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
+    const auto other =
+      SurfaceOf(image, [&](vtkDeformableSurface* f) { f->SetNumberOfThreads(threads); });
     ASSERT_GT(other->GetOutput()->GetNumberOfPoints(), 0);
     EXPECT_TRUE(AreSameSurfaces(other->GetOutput(), one->GetOutput())) << threads << " threads";
   }

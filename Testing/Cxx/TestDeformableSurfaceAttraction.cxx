@@ -50,7 +50,7 @@ protected:
 };
 }
 
-TEST_F(DeformableSurfaceAttraction, PointsDrawTheSurfaceOut)
+TEST_F(DeformableSurfaceAttraction, PointsAttractTheSurface)
 {
   EXPECT_NEAR(this->Bump(), 0.0, 0.3) << "no points, no bump";
   this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
@@ -61,7 +61,7 @@ TEST_F(DeformableSurfaceAttraction, PointsDrawTheSurfaceOut)
   EXPECT_NEAR(this->Bump(), 0.0, 0.3);
 }
 
-TEST_F(DeformableSurfaceAttraction, RadiusAndWeightCount)
+TEST_F(DeformableSurfaceAttraction, RadiusAndWeightHaveAnEffect)
 {
   this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
   this->SetArray<vtkIntArray>("Weight", { 1 });
@@ -74,7 +74,7 @@ TEST_F(DeformableSurfaceAttraction, RadiusAndWeightCount)
   EXPECT_NEAR(this->Bump(), 0.0, 0.3);
 }
 
-TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
+TEST_F(DeformableSurfaceAttraction, UsesVerticesIfThereAreAny)
 {
   this->Points->GetPoints()->InsertNextPoint(26.5, 15.5, 15.5);
   this->Points->GetPoints()->InsertNextPoint(15.5, 15.5, 26.5);
@@ -85,7 +85,7 @@ TEST_F(DeformableSurfaceAttraction, VerticesCountWhereThereAreSome)
   EXPECT_GT(this->Filter->GetOutput()->GetBounds()[5], 15.5 + 9.6 + 1.4);
 }
 
-TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)
+TEST_F(DeformableSurfaceAttraction, ReportsInvalidPoints)
 {
   this->Points->GetPoints()->InsertNextPoint(16, 16, 40);
   this->ExpectError({ "Input port 2", "point 0", "outside the image" });
@@ -104,7 +104,7 @@ TEST_F(DeformableSurfaceAttraction, PointsThatMakeNoSenseAreRefused)
   this->ExpectError({ "Input port 2", "Radius", "one number per point" });
 }
 
-TEST_F(DeformableSurfaceAttraction, WeightsThatMakeNoSenseAreRefused)
+TEST_F(DeformableSurfaceAttraction, ReportsInvalidWeights)
 {
   this->Filter->SetPointAttractionWeight(-1.0);
   this->ExpectError({ "Point Attraction Weight is -1" });
@@ -113,12 +113,11 @@ TEST_F(DeformableSurfaceAttraction, WeightsThatMakeNoSenseAreRefused)
   this->ExpectError({ "Edge Attraction Weight is -1" });
 }
 
-TEST_F(DeformableSurfaceAttraction, AMapOfEdgesMustBeThere)
+TEST_F(DeformableSurfaceAttraction, ReportsAMissingEdgeMap)
 {
   this->Filter->SetEdgeAttractionWeight(1.0);
   this->ExpectError({ "Edge Attraction Weight", "SetInputArrayToProcess(1" });
-  this->Filter->SetInputArrayToProcess(
-    1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
+  this->Filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
   this->ExpectError({ "Input port 0", "edges", "'Edges'" });
   this->Filter->SetEdgeAttractionWeight(0.0);
   this->Filter->Update();

@@ -42,7 +42,7 @@ protected:
     this->Filter->SetInitializationToIsoSurface();
   }
 
-  /** Volumes of the components that are put out, in their order. */
+  /** Return the volumes of the output components in their order. */
   std::vector<double> Volumes()
   {
     this->Filter->Update();
@@ -76,7 +76,7 @@ protected:
     return volumes;
   }
 
-  /** Each triangle says of its component what the field data say. */
+  /** Check that cell data and field data of the components agree. */
   static void ExpectFeaturesOfCells(vtkPolyData* surface)
   {
     vtkDataArray* component = surface->GetCellData()->GetArray("Component");
@@ -97,8 +97,7 @@ protected:
     }
   }
 
-  static void ExpectVolumes(
-    const std::vector<double>& volumes, const std::vector<double>& expected)
+  static void ExpectVolumes(const std::vector<double>& volumes, const std::vector<double>& expected)
   {
     ASSERT_EQ(volumes.size(), expected.size());
     for (std::size_t c = 0; c < expected.size(); ++c)
@@ -120,13 +119,13 @@ protected:
 };
 }
 
-TEST_F(DeformableSurfaceComponents, TheLargestComesWithItsCavity)
+TEST_F(DeformableSurfaceComponents, LargestHasItsCavity)
 {
   this->Filter->SetKeepComponentsToLargestComponent();
   ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
 }
 
-TEST_F(DeformableSurfaceComponents, ACavityTellsWhoseItIs)
+TEST_F(DeformableSurfaceComponents, CavitiesNameTheirOwner)
 {
   ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
   const auto owners = [this]
@@ -146,7 +145,7 @@ TEST_F(DeformableSurfaceComponents, ACavityTellsWhoseItIs)
   EXPECT_EQ(owners(), std::vector<double>{ 0 });
 }
 
-TEST_F(DeformableSurfaceComponents, LargeOnesCountByVolume)
+TEST_F(DeformableSurfaceComponents, LargeComponentsAreSelectedByVolume)
 {
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(600.0);
@@ -154,11 +153,10 @@ TEST_F(DeformableSurfaceComponents, LargeOnesCountByVolume)
   this->Filter->SetMinimumComponentVolume(2000.0);
   ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
   this->Filter->SetMinimumComponentVolume(200.0);
-  ExpectVolumes(
-    this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
+  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
 }
 
-TEST_F(DeformableSurfaceComponents, PointsChooseTheInnermostThatEnclosesThem)
+TEST_F(DeformableSurfaceComponents, PointsSelectTheInnermostEnclosingComponent)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   this->SetSeed(38.3, 15.7, 16.2);
@@ -171,7 +169,7 @@ TEST_F(DeformableSurfaceComponents, PointsChooseTheInnermostThatEnclosesThem)
   ExpectVolumes(this->Volumes(), { this->Beside });
 }
 
-TEST_F(DeformableSurfaceComponents, SeedsDropWhatTheyMark)
+TEST_F(DeformableSurfaceComponents, SeedsRemoveMarkedComponents)
 {
   this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
   const std::vector<double> all{ this->Outside, this->Cavity, this->Beside, this->Inner };
@@ -185,7 +183,7 @@ TEST_F(DeformableSurfaceComponents, SeedsDropWhatTheyMark)
   ExpectVolumes(this->Volumes(), { this->Inner });
 }
 
-TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
+TEST_F(DeformableSurfaceComponents, ReportsLinesAsSeeds)
 {
   const auto line = PointsAt({ { 38, 16, 16 }, { 16, 16, 17 } });
   line->SetLines(vtkNew<vtkCellArray>());
@@ -201,7 +199,7 @@ TEST_F(DeformableSurfaceComponents, LinesAreNoSeeds)
   }
 }
 
-TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
+TEST_F(DeformableSurfaceComponents, WarnsIfNoComponentIsAtThePoint)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   this->SetSeed(28.5, 27.0, 27.0);
@@ -211,7 +209,7 @@ TEST_F(DeformableSurfaceComponents, NothingAtThePointIsWarnedOf)
   EXPECT_FALSE(warnings.Has("level 1")) << "once, for the finest level: " << warnings.Get();
 }
 
-TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
+TEST_F(DeformableSurfaceComponents, SizesAndPositionsAreInWorldUnits)
 {
   auto image = HollowBallAndBall();
   image->SetSpacing(0.5, -0.5, 1.5);
@@ -223,11 +221,11 @@ TEST_F(DeformableSurfaceComponents, SizesAndPlacesAreThoseOfTheWorld)
   ExpectVolumes(this->Volumes(), { voxel * this->Beside });
   this->Filter->SetKeepComponentsToLargeComponents();
   this->Filter->SetMinimumComponentVolume(voxel * 600.0);
-  ExpectVolumes(this->Volumes(),
-    { voxel * this->Outside, voxel * this->Cavity, voxel * this->Beside });
+  ExpectVolumes(
+    this->Volumes(), { voxel * this->Outside, voxel * this->Cavity, voxel * this->Beside });
 }
 
-TEST_F(DeformableSurfaceComponents, WrongChoicesAreRefused)
+TEST_F(DeformableSurfaceComponents, ReportsInvalidSelections)
 {
   this->Filter->SetKeepComponents(5);
   ExpectErrorOf(this->Filter, { "Keep Components is 5" });

@@ -18,7 +18,7 @@ vtkSmartPointer<vtkImageData> OneVoxel(double value)
     [value](int i, int j, int k) { return i == 20 && j == 20 && k == 20 ? value : 0.0; });
 }
 
-/** A filter that would work: each test spoils one thing, and expects to be told. */
+/** A valid filter. Each test makes one setting or input invalid, and expects an error. */
 class DeformableSurfaceErrors : public ::testing::Test
 {
 protected:
@@ -49,7 +49,7 @@ TEST_F(DeformableSurfaceErrors, NoInput)
   EXPECT_TRUE(Has(errors.Get(), "Input port 0"));
 }
 
-TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
+TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
 {
   struct Case
   {
@@ -65,9 +65,7 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
     { [](vtkDeformableSurface* f) { f->SetInputDataObject(RandomImage(64, 7, 64)); },
       { "Input port 0", "64 x 7 x 64", "at least 8" } },
     { [](vtkDeformableSurface* f)
-      {
-        f->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density");
-      },
+      { f->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Density"); },
       { "no point array 'Density'", "'Voxels'" } },
     { [](vtkDeformableSurface* f) { f->SetCoarsestLevel(5); },
       { "Coarsest Level is 5", "levels 0 to 2" } },
@@ -75,7 +73,8 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
       { "Finest Level is 2", "Set it to 0 to 1, the coarsest level" } },
     { [](vtkDeformableSurface* f) { f->SetFinestLevel(-2); },
       { "Finest Level is -2", "or to -1 for a subdivision" } },
-    { [](vtkDeformableSurface* f) { f->SetInitialization(4); }, { "Initialization is 4", "0 to 3" } },
+    { [](vtkDeformableSurface* f) { f->SetInitialization(4); },
+      { "Initialization is 4", "0 to 3" } },
     { [](vtkDeformableSurface* f) { f->SetBorderValue(2); }, { "Border Value is 2", "0 to 1" } },
     { [](vtkDeformableSurface* f) { f->SetRecovery(-1); }, { "Recovery is -1" } },
     { [](vtkDeformableSurface* f) { f->SetMaximumNumberOfIterations(0); },
@@ -110,7 +109,8 @@ TEST_F(DeformableSurfaceErrors, WhatIsSetWrongIsNamedWithTheWayOut)
   for (const double iso : { -5.0, 100.0, 101.0, infinite })
   {
     cases.push_back({ [iso](vtkDeformableSurface* f) { f->SetIsoValue(iso); },
-      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range", "between 0 and 100" } });
+      { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range",
+        "between 0 and 100" } });
   }
   for (const Case& test : cases)
   {
@@ -126,9 +126,9 @@ TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
   this->ExpectError({ "coarsest level, 2", "above Iso Value 50", "Set Coarsest Level to 0" });
 }
 
-TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
+TEST_F(DeformableSurfaceErrors, WarnsOfAVanishedSurface)
 {
-  // Thin enough to slip through the surface, even at level 0.
+  // Too thin for a surface, even at level 0.
   this->Filter->SetInputDataObject(OneVoxel(51.0));
   this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   this->Filter->SetCoarsestLevel(0);
@@ -139,7 +139,7 @@ TEST_F(DeformableSurfaceErrors, WhatVanishesGetsAWayOutThatThereIs)
   EXPECT_FALSE(Has(warnings, "Set CoarsestLevel"));
 }
 
-TEST_F(DeformableSurfaceErrors, WhatThePyramidRefusesIsToldOnce)
+TEST_F(DeformableSurfaceErrors, ReportsPyramidErrorsOnce)
 {
   const auto image = BallImage(32, 32, 32);
   image->GetPointData()->GetScalars()->SetComponent(5, 0, std::nan(""));
@@ -179,7 +179,7 @@ TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)
   }
 }
 
-TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
+TEST_F(DeformableSurfaceErrors, ReportsBlocksThatAreNotAPyramid)
 {
   struct Spoil
   {
@@ -213,7 +213,7 @@ TEST_F(DeformableSurfaceErrors, BlocksThatAreNoPyramid)
   }
 }
 
-TEST_F(DeformableSurfaceErrors, GoodThenBadThenGoodAgain)
+TEST_F(DeformableSurfaceErrors, RecoversFromAnError)
 {
   this->Filter->SetInputDataObject(this->Pyramid()); // with field data
   this->Filter->SetSnapshotInterval(20);
@@ -236,7 +236,7 @@ TEST_F(DeformableSurfaceErrors, GoodThenBadThenGoodAgain)
   expectSurface();
 }
 
-TEST_F(DeformableSurfaceErrors, AnErrorIsToldOnceAndEndsNoPipeline)
+TEST_F(DeformableSurfaceErrors, ReportsAnErrorOnceWithoutStoppingThePipeline)
 {
   this->Filter->SetIsoValue(200.0);
   const MessagesOf errors(this->Filter);
@@ -249,7 +249,7 @@ TEST_F(DeformableSurfaceErrors, AnErrorIsToldOnceAndEndsNoPipeline)
   EXPECT_EQ(ofPipeline.Get(), "");
 }
 
-TEST_F(DeformableSurfaceErrors, AnErrorOfThePyramidIsNamed)
+TEST_F(DeformableSurfaceErrors, ReportsAnErrorOfThePyramid)
 {
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetInputData(BallImage(32, 32, 32));

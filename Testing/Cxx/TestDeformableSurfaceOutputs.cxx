@@ -10,7 +10,7 @@
 
 using namespace volumic;
 
-TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
+TEST(DeformableSurfaceOutputs, HasTheDocumentedArrays)
 {
   const auto filter = SurfaceOf(BallImage(40, 40, 40));
   vtkPolyData* surface = filter->GetOutput();
@@ -22,7 +22,7 @@ TEST(DeformableSurfaceOutputs, CarriesTheArraysOfTheInterface)
   double range[2];
   points->GetArray("Residual")->GetRange(range);
   EXPECT_LT(std::max(-range[0], range[1]), 5.0) << "vertices lie on the isopotential";
-  // 98 % of them within, and hardly more.
+  // The quantile is neither too large nor too small.
   const double quantile = FieldOf(surface, "ResidualQuantile");
   int within = 0;
   for (vtkIdType p = 0; p < surface->GetNumberOfPoints(); ++p)
@@ -115,11 +115,11 @@ TEST(DeformableSurfaceOutputs, ProfileIsDeprecated)
   EXPECT_TRUE(warnings.Has("Profile is deprecated"));
 }
 
-TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
+TEST(DeformableSurfaceOutputs, HasSnapshots)
 {
   const auto plain = SurfaceOf(BallImage(40, 40, 40));
-  const auto filter = SurfaceOf(BallImage(40, 40, 40),
-    [](vtkDeformableSurface* f) { f->SetSnapshotInterval(20); });
+  const auto filter =
+    SurfaceOf(BallImage(40, 40, 40), [](vtkDeformableSurface* f) { f->SetSnapshotInterval(20); });
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), plain->GetOutput()))
     << "looking on does not disturb";
 
@@ -158,7 +158,7 @@ TEST(DeformableSurfaceOutputs, KeepsTheSurfaceOnItsWay)
         FieldOf(surface, "Level"));
     }
   }
-  // From the body about the image to the ball in it.
+  // The surface shrinks from the initial box to the ball.
   auto* first = vtkPolyData::SafeDownCast(snapshots->GetBlock(0));
   auto* final = vtkPolyData::SafeDownCast(snapshots->GetBlock(expected.size() - 1));
   EXPECT_GT(FieldOf(first, "Volume"), 2.0 * FieldOf(final, "Volume"));

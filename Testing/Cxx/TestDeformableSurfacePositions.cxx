@@ -15,8 +15,7 @@ vtkSmartPointer<vtkImageData> TwoBalls()
   auto image = ImageOf({ 50, 25, 25 },
     [](int i, int j, int k)
     {
-      const double distance =
-        std::hypot(std::abs(i - 25.0) - 12.5, j - 12.5, k - 12.6) - 7.5;
+      const double distance = std::hypot(std::abs(i - 25.0) - 12.5, j - 12.5, k - 12.6) - 7.5;
       return std::clamp(50.0 - 50.0 * distance, 0.0, 100.0);
     });
   image->SetOrigin(100, 0, 0);
@@ -35,10 +34,7 @@ protected:
       [](vtkDeformableSurface* f) { f->SetRecovery(vtkDeformableSurface::NoRecovery); });
   }
 
-  void AddSeed(const std::array<double, 3>& p)
-  {
-    this->Filter->AddSeedPosition(p[0], p[1], p[2]);
-  }
+  void AddSeed(const std::array<double, 3>& p) { this->Filter->AddSeedPosition(p[0], p[1], p[2]); }
 
   double Components()
   {
@@ -84,7 +80,7 @@ vtkSmartPointer<vtkImageData> BallAndRods()
 }
 }
 
-TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
+TEST_F(DeformableSurfacePositions, SeedsAreTestedAtLevel0)
 {
   const double ofRod = 3 * 3 * 48;
   this->Filter->SetInputDataObject(BallAndRods());
@@ -103,7 +99,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
   {
     EXPECT_LT(SurfaceAt(this->Filter, level)->GetBounds()[1], 12) << level;
   }
-  // Whichever level it starts at.
+  // The result does not depend on the level at which the run starts.
   const double volume = FieldOf(surface, "Volume");
   for (int level = 0; level <= start; ++level)
   {
@@ -113,7 +109,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
     EXPECT_NEAR(FieldOf(surface, "Volume") / volume, 1.0, 0.03);
     EXPECT_EQ(FieldOf(surface, "StartLevel"), level);
   }
-  // With recovery one of the seeds suffices for a start; here the ball's.
+  // With recovery one seed, here in the ball, suffices for a start.
   this->Filter->SetCoarsestLevel(last);
   this->ExpectError({ "Coarsest Level is " + std::to_string(last), "too thin at 1 of 1 seeds",
     "Set it to " + std::to_string(start) + " or less" });
@@ -126,7 +122,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedInTheVolumeItself)
   this->ExpectError({ "Finest Level is " + std::to_string(last), "too thin at 1 of 2 seeds" });
 }
 
-TEST_F(DeformableSurfacePositions, SelectionsAreAmongThePartsAtSeeds)
+TEST_F(DeformableSurfacePositions, SelectionsAreAmongTheComponentsAtSeeds)
 {
   this->Filter->SetRecovery(vtkDeformableSurface::RecoverObjects);
   this->Filter->SetInputDataObject(BallAndRods());
@@ -143,11 +139,11 @@ TEST_F(DeformableSurfacePositions, SelectionsAreAmongThePartsAtSeeds)
     EXPECT_LE(FieldOf(vtkPolyData::SafeDownCast(snapshots->GetBlock(i)), "NumberOfComponents"), 2);
   }
   this->Filter->SetKeepComponentsToComponentsNotAtSeeds();
-  EXPECT_TRUE(Has(MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent),
-    "Keep Components selects none"));
+  EXPECT_TRUE(
+    Has(MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent), "Keep Components selects none"));
 }
 
-TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
+TEST_F(DeformableSurfacePositions, UsesSeedsOfThePortAndOfTheList)
 {
   this->Filter->SetInitializationToSeeds();
   this->Filter->SetInitialSurfaceData(PointsAt({ InLeft }));
@@ -159,7 +155,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreThoseOfThePortAndOfTheList)
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), this->Other->GetOutput()));
 }
 
-TEST_F(DeformableSurfacePositions, PointsAttractAsThoseOfThePortDo)
+TEST_F(DeformableSurfacePositions, PositionsAttractLikePointsOfThePort)
 {
   const std::array<double, 3> beside = { 112.5, 21.5, 12.5 };
   this->Filter->Update();
@@ -175,7 +171,7 @@ TEST_F(DeformableSurfacePositions, PointsAttractAsThoseOfThePortDo)
   EXPECT_NEAR(this->Filter->GetOutput()->GetBounds()[3], top, 0.3);
 }
 
-TEST_F(DeformableSurfacePositions, BothListsChooseComponents)
+TEST_F(DeformableSurfacePositions, BothListsSelectComponents)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   EXPECT_EQ(this->Components(), 2) << "all, without points";
@@ -186,7 +182,7 @@ TEST_F(DeformableSurfacePositions, BothListsChooseComponents)
   EXPECT_EQ(this->Components(), 2);
 }
 
-TEST_F(DeformableSurfacePositions, OnesOutsideTheImageOrTheObjectAreRefused)
+TEST_F(DeformableSurfacePositions, ReportsPositionsOutsideTheImageOrTheObject)
 {
   this->Filter->SetInitializationToSeeds();
   this->AddSeed(InLeft);
@@ -197,14 +193,14 @@ TEST_F(DeformableSurfacePositions, OnesOutsideTheImageOrTheObjectAreRefused)
   this->ExpectError({ "Seed Positions: point 0" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddSeedPosition(125, 2, 2);
-  this->ExpectError({ "Seed Positions: the seed is not inside the object",
-    "above Iso Value 50", "the value at the seed is 0. Move it" });
+  this->ExpectError({ "Seed Positions: the seed is not inside the object", "above Iso Value 50",
+    "the value at the seed is 0. Move it" });
   this->Filter->ClearSeedPositions();
   this->Filter->AddAttractingPosition(12, 12, 13);
   this->ExpectError({ "Attracting Positions: point 0 (12, 12, 13) is outside the image" });
 }
 
-TEST_F(DeformableSurfacePositions, OnesPickedOnTheBorderAreInside)
+TEST_F(DeformableSurfacePositions, PositionsOnTheBorderAreInside)
 {
   this->Filter->SetInitializationToSeeds();
   this->AddSeed(InLeft);
@@ -212,7 +208,7 @@ TEST_F(DeformableSurfacePositions, OnesPickedOnTheBorderAreInside)
   EXPECT_EQ(this->Components(), 1) << "the other is left out, as it is not in the object";
 }
 
-TEST_F(DeformableSurfacePositions, ListsAreKept)
+TEST_F(DeformableSurfacePositions, ListsCanBeRead)
 {
   EXPECT_EQ(this->Filter->GetNumberOfSeedPositions(), 0);
   this->AddSeed(InLeft);

@@ -38,7 +38,7 @@ vtkSmartPointer<vtkDeformableSurface> Cancelled(const std::string& part, int n)
 }
 }
 
-TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
+TEST(DeformableSurfaceProgress, CancellingGivesAValidSurface)
 {
   const auto whole = SurfaceOf(BallImage(40, 40, 40));
   struct Case
@@ -69,7 +69,7 @@ TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
     {
       EXPECT_FALSE(filter->GetLevels()->GetBlock(level));
     }
-    // Nothing of the request is left.
+    // The request is reset.
     EXPECT_FALSE(filter->GetAbortExecute());
     filter->Modified();
     filter->Update();
@@ -77,7 +77,7 @@ TEST(DeformableSurfaceProgress, CancellingInAnyPartHandsOverAValidSurface)
   }
 }
 
-TEST(DeformableSurfaceProgress, CancellingBeforeThereIsASurfaceHandsOverAnEmptyOne)
+TEST(DeformableSurfaceProgress, CancellingEarlyGivesAnEmptySurface)
 {
   for (const char* part : { "Building the pyramid", "Level 2, voxels" })
   {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Every property of the filter reaches the surface: what it does there, the tests of the core tell.
+// Every property has an effect on the surface. The tests of the core check which one.
 #include "Settings/PropertyTable.h"
 #include "SurfaceTestTools.h"
 
@@ -34,7 +34,7 @@ struct Property
   double Value;
 };
 
-/** A value that it does not have: of another sign or size, which texts show exactly. */
+/** Return another value than the current one that is printed exactly. */
 double AnotherThan(double value)
 {
   return std::isnan(value) ? 7.0 : value != 0.375 ? 0.375 : 0.25;
@@ -49,8 +49,8 @@ bool AnotherThan(bool value)
 }
 
 template <typename T>
-Property MakeProperty(const char* name, void (vtkDeformableSurface::*set)(T),
-  T (vtkDeformableSurface::*get)())
+Property MakeProperty(
+  const char* name, void (vtkDeformableSurface::*set)(T), T (vtkDeformableSurface::*get)())
 {
   const T value = AnotherThan((vtkSmartPointer<vtkDeformableSurface>::New()->*get)());
   return { name, [set, value](vtkDeformableSurface& f) { (f.*set)(value); },
@@ -69,7 +69,7 @@ std::vector<Property> AllProperties()
       all.push_back(MakeProperty(name, set, get));
     }
   };
-#define VOLUMIC_MADE(name, type, member, needsRun)                                                 \
+#define VOLUMIC_MADE(name, type, member, needsRun) \
   add(#name, &vtkDeformableSurface::Set##name, &vtkDeformableSurface::Get##name);
 #define VOLUMIC_WRITTEN(name, type, member, needsRun)
   VOLUMIC_SURFACE_PROPERTIES(VOLUMIC_MADE, VOLUMIC_WRITTEN)
@@ -86,7 +86,7 @@ bool AreSame(double a, double b)
 }
 }
 
-TEST(DeformableSurfaceProperties, EachHasAValueOfItsOwn)
+TEST(DeformableSurfaceProperties, EachHasItsOwnValue)
 {
   const std::vector<Property> all = AllProperties();
   ASSERT_GT(all.size(), 35u);

@@ -6,7 +6,7 @@
 
 using namespace volumic;
 
-TEST(DeformableSurfaceStart, StartsFromAGivenSurface)
+TEST(DeformableSurfaceStart, StartsFromAnInputSurface)
 {
   vtkNew<vtkSphereSource> sphere;
   sphere->SetCenter(22, 19, 19);
@@ -64,7 +64,7 @@ unsigned int FirstLevelOf(vtkDeformableSurface* filter)
 }
 }
 
-TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
+TEST(DeformableSurfaceStart, RecoversMissedObjects)
 {
   const auto filter = FilterOf(BallAndRod());
   EXPECT_EQ(MessagesOfUpdate(filter, vtkCommand::WarningEvent), "");
@@ -72,9 +72,9 @@ TEST(DeformableSurfaceStart, FindsAgainWhatCoarseLevelsLose)
   EXPECT_GE(SumOverLevels(filter, "RecoveredParts"), 1);
 }
 
-TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
+TEST(DeformableSurfaceStart, RecoversCavities)
 {
-  // A bubble in the ball, which no surface from outside comes into.
+  // A bubble in the ball, which a surface from outside cannot reach.
   const auto image = BallImage(64, 64, 64, 0.4);
   FillBox(image, { 24, 25, 26 }, { 39, 40, 41 }, 0.0);
   for (int recovery :
@@ -95,9 +95,9 @@ TEST(DeformableSurfaceStart, FindsCavitiesOnRequest)
   }
 }
 
-TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
+TEST(DeformableSurfaceStart, StartsAroundTheFirstResolvedParts)
 {
-  // A shell that coarse levels do not show: from a box the way to it would be long.
+  // A shell that coarse levels do not resolve, far from an enclosing box.
   const auto image = ImageOf({ 64, 64, 64 },
     [](int i, int j, int k)
     {
@@ -113,23 +113,23 @@ TEST(DeformableSurfaceStart, BeginsAboutThePartsThatComeInSightFirst)
   const double iterations = FieldOf(start, "Iterations");
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2) << "both its walls";
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Genus"), 0);
-  // Who chooses the level gets the box.
+  // With a given CoarsestLevel the run starts from the box.
   filter->SetCoarsestLevel(static_cast<int>(first));
   filter->Update();
   EXPECT_EQ(FieldOf(SurfaceAt(filter, first), "LostParts"), 0);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "Iterations"), 2 * iterations);
 }
 
-TEST(DeformableSurfaceStart, LeavesOutLevelsThatShowSpecksOnly)
+TEST(DeformableSurfaceStart, SkipsLevelsWithSmallPartsOnly)
 {
-  // Of a rod the level on which it comes in sight shows the middle only, which is brighter: fewer
-  // voxels than MinimumPartSize.
+  // The first level that resolves the rod has only its bright middle, with fewer voxels than
+  // MinimumPartSize.
   const auto filter =
     SurfaceOf(RodWithBrightMiddle(64, 3), [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   const unsigned int first = FirstLevelOf(filter);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);
-  // Where nowhere there are so many it is the first level that has any.
+  // If no level has a part of this size, the run starts at the first level with any voxel.
   filter->SetMinimumPartSize(100000);
   filter->Update();
   EXPECT_TRUE(filter->GetLevels()->GetBlock(first + 1)) << "one that was left out";
@@ -149,9 +149,9 @@ vtkSmartPointer<vtkImageData> BallOfRadius(double radius, int size, double ramp 
 }
 }
 
-TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
+TEST(DeformableSurfaceStart, WithoutRecoveryStartsAtALevelWithALargePart)
 {
-  // At the coarsest levels some voxels are left of it, on which no surface can hold.
+  // The coarsest levels have too few voxels of the object for a surface.
   for (const double radius : { 2.5, 3.5, 4.5 })
   {
     SCOPED_TRACE(radius);
@@ -166,7 +166,7 @@ TEST(DeformableSurfaceStart, WithoutRecoveryBeginsWhereEnoughOfTheObjectIsLeft)
 
 TEST(DeformableSurfaceStart, WithoutRecoveryEndsAtTheFinestLevelAtLeast)
 {
-  // Too thin for a surface on any level: begun where it is to end, not refused.
+  // The object is too thin for a surface at any level. The run starts at the finest level.
   const auto filter = FilterOf(BallOfRadius(0.8, 40));
   filter->SetRecovery(vtkDeformableSurface::NoRecovery);
   const MessagesOf errors(filter);
@@ -199,7 +199,7 @@ TEST(DeformableSurfaceStart, StartsFromTheIsoSurfaceWhereAllVoxelsAreObject)
   }
 }
 
-TEST(DeformableSurfaceStart, TakesAllThatThePyramidMakes)
+TEST(DeformableSurfaceStart, AcceptsLevelsWithAnAxisOfOneVoxel)
 {
   // The third axis is down to one voxel, and stays so, while the others still shrink.
   const auto image = BallImage(70, 60, 12, 0.4);

@@ -7,7 +7,7 @@ using namespace volumic;
 
 namespace
 {
-/** A ball, a thin rod and a bubble: something is lost, found again and merged. */
+/** A ball, a thin rod and a bubble: a part is missed, recovered and merged. */
 vtkSmartPointer<vtkImageData> GoingOnScene(int size = 64)
 {
   const auto image = BallImage(size, size, size, 0.3);
@@ -15,7 +15,7 @@ vtkSmartPointer<vtkImageData> GoingOnScene(int size = 64)
   return image;
 }
 
-/** What a run from the start gives. */
+/** Return the filter after a new run. */
 vtkSmartPointer<vtkDeformableSurface> FromTheStart(
   vtkDataObject* input, int finest, const Choice& choose = {})
 {
@@ -25,7 +25,8 @@ vtkSmartPointer<vtkDeformableSurface> FromTheStart(
   return filter;
 }
 
-/** Updates; @return whether levels coarser than `level` have iterated, or the pyramid was built. */
+/** Update. @return whether levels coarser than `level` have iterated, or the pyramid was computed
+ */
 bool Reruns(vtkAlgorithm* filter, int level)
 {
   ProgressListener listener(filter);
@@ -44,7 +45,7 @@ bool Reruns(vtkAlgorithm* filter, int level)
 }
 
 /**
- * Updates; @return whether nothing at all is worked on. (The last text of the run before stays.)
+ * Update. @return whether no level iterates. The progress text of the last run remains.
  */
 bool ShowsAtOnce(vtkAlgorithm* filter)
 {
@@ -62,7 +63,7 @@ protected:
 };
 }
 
-TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
+TEST_F(GoingOn, IsBitIdenticalToANewRun)
 {
   std::vector<Choice> choices = ChoicesOfRuns();
   choices.push_back([](vtkDeformableSurface* filter)
@@ -81,7 +82,7 @@ TEST_F(GoingOn, GivesTheSameBitsAsARunFromTheStart)
   }
 }
 
-TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
+TEST_F(GoingOn, OutputsConvergedLevelsAtOnce)
 {
   this->Filter->SetSnapshotInterval(10);
   const Choice same = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(10); };
@@ -94,10 +95,10 @@ TEST_F(GoingOn, ShowsLevelsAtRestAtOnce)
   }
 }
 
-TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
+TEST_F(GoingOn, SelectsComponentsWithoutARunInAWindow)
 {
-  const Choice choices[] = {
-    [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); },
+  const Choice choices[] = { [](vtkDeformableSurface* f)
+    { f->SetKeepComponentsToLargestComponent(); },
     [](vtkDeformableSurface* f)
     {
       f->SetKeepComponentsToComponentsAtPoints();
@@ -144,7 +145,7 @@ TEST_F(GoingOn, ChoosesComponentsOfWhatIsThereWhereSomeoneWatches)
   EXPECT_FALSE(largest->NewLeftOutComponents()) << "nobody watches";
 }
 
-TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
+TEST_F(GoingOn, ResumesAtTheLastConvergedLevelAfterAStop)
 {
   const Choice choose = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(7); };
   struct Case
@@ -155,10 +156,10 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
     int Finest;
     int Stops = 2;
   };
-  for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 }, Case{ "Level 2, subdivision", 1, 2, 0 },
-         Case{ "Level 1, recovery", 1, 1, 0 }, Case{ "Level 0, subdivision", 1, 0, 0 },
-         Case{ "Level 0, iteration", 2, 0, 0 }, Case{ "Level 0, optimization", 3, 0, 0 },
-         Case{ "Level -1, iteration", 2, -1, -1 } })
+  for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 },
+         Case{ "Level 2, subdivision", 1, 2, 0 }, Case{ "Level 1, recovery", 1, 1, 0 },
+         Case{ "Level 0, subdivision", 1, 0, 0 }, Case{ "Level 0, iteration", 2, 0, 0 },
+         Case{ "Level 0, optimization", 3, 0, 0 }, Case{ "Level -1, iteration", 2, -1, -1 } })
   {
     SCOPED_TRACE(test.Part);
     const auto filter = FilterOf(this->Image, choose);
@@ -178,7 +179,7 @@ TEST_F(GoingOn, GoesOnFromTheLastLevelAtRestAfterAStop)
   }
 }
 
-TEST_F(GoingOn, IsNotMadeToByALateRequestToStop)
+TEST_F(GoingOn, IgnoresALateRequestToStop)
 {
   {
     const StopAtText stop(this->Filter, "Level 0, iteration", 2);
@@ -189,11 +190,11 @@ TEST_F(GoingOn, IsNotMadeToByALateRequestToStop)
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
 }
 
-TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
+TEST_F(GoingOn, PreviewEndsAtALevelWithFewVoxels)
 {
   const auto large = BallImage(180, 160, 128);
-  const auto filter = SurfaceOf<vtkVolumeToSurface>(large,
-    [](vtkVolumeToSurface* f) { f->PreviewOn(); });
+  const auto filter =
+    SurfaceOf<vtkVolumeToSurface>(large, [](vtkVolumeToSurface* f) { f->PreviewOn(); });
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1) << "104 x 92 x 74 voxels";
   filter->PreviewOff();
   EXPECT_FALSE(Reruns(filter, 0));
@@ -206,7 +207,7 @@ TEST_F(GoingOn, PreviewEndsAtALevelOfFewVoxels)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than asked for";
 }
 
-TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatches)
+TEST_F(GoingOn, KeepsNoOtherComponentsWithoutAWindow)
 {
   this->Filter->SetKeepComponentsToAllComponents();
   this->Filter->Modified();
@@ -215,13 +216,11 @@ TEST_F(GoingOn, HoldsNoOtherComponentsWhereNobodyWatches)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
+TEST_F(GoingOn, RestartsAfterAnyOtherChange)
 {
   const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
-    [&] { this->Filter->SetSnapshotInterval(5); },
-    [&] { this->Filter->Modified(); },
-    [&] { this->Filter->SetMetricToVoxels(); },
-    [&] { this->Filter->ForgetRun(); },
+    [&] { this->Filter->SetSnapshotInterval(5); }, [&] { this->Filter->Modified(); },
+    [&] { this->Filter->SetMetricToVoxels(); }, [&] { this->Filter->ForgetRun(); },
     [&]
     {
       this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
@@ -243,7 +242,7 @@ TEST_F(GoingOn, BeginsAnewAfterAnyOtherChange)
   }
 }
 
-TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
+TEST_F(GoingOn, RestartsIfABlockOfThePyramidChanges)
 {
   const auto pyramid = PyramidOf(this->Image);
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -258,7 +257,7 @@ TEST_F(GoingOn, BeginsAnewWhereABlockOfThePyramidHasChanged)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, IsNotChangedByResume)
+TEST_F(GoingOn, IsIndependentOfResume)
 {
   this->Filter->SetFinestLevel(1);
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
@@ -284,7 +283,7 @@ TEST_F(GoingOn, KeepsNothingAfterAnError)
   ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
 }
 
-TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
+TEST_F(GoingOn, KeepsNothingIfDataAreReleased)
 {
   this->Filter->ReleaseDataFlagOn();
   this->Filter->SetFinestLevel(2);
@@ -293,9 +292,9 @@ TEST_F(GoingOn, KeepsNothingWhereDataAreReleased)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)
+TEST_F(GoingOn, StartsAtAReleasedLevel)
 {
-  // A thicker rod: one that is to end at level 2 begins there, others at level 1.
+  // With a thicker rod a run to level 2 starts there, and other runs start at level 1.
   FillBox(this->Image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
   FillBox(this->Image, { 5, 5, 6 }, { 10, 10, 58 });
   const Choice choose = [](vtkDeformableSurface* filter)
@@ -312,7 +311,7 @@ TEST_F(GoingOn, BeginsAtALevelThatWasLetGo)
   }
 }
 
-TEST_F(GoingOn, BeginsAnewAfterACancelledRun)
+TEST_F(GoingOn, RestartsAfterACancelledRun)
 {
   ProgressListener listener(this->Filter);
   listener.StopAt = 0.7;

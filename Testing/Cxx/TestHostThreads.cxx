@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// How many threads there are.
+// The number of threads.
 #include "Host/HostThreads.h"
 #include "TemporaryFolder.h"
 #include "TestPrelude.h"
@@ -20,7 +20,7 @@ using namespace volumic;
 
 namespace
 {
-/** How many threads work, where each waits for those that should. */
+/** Return the number of threads that work at the same time. */
 std::size_t ThreadsAtWork(int numberOfThreads)
 {
   std::mutex mutex;
@@ -43,7 +43,7 @@ std::size_t ThreadsAtWork(int numberOfThreads)
   return ids.size();
 }
 
-/** A variable of the environment; as before when it goes. */
+/** Set an environment variable, and restore it at the end of the scope. */
 class Variable
 {
 public:
@@ -66,7 +66,7 @@ private:
 };
 }
 
-TEST(HostThreads, AreAsManyAsWorkWhateverVtkHas)
+TEST(HostThreads, AreIndependentOfTheVtkBackend)
 {
   if (NumberOfProcessors() < 2 || std::getenv("VTK_SMP_MAX_THREADS"))
   {
@@ -94,7 +94,7 @@ TEST(HostThreads, AreAsManyAsWorkWhateverVtkHas)
   vtkSMPTools::SetBackend(host.c_str());
 }
 
-TEST(HostThreads, AreNoMoreThanTheHostGivesToVtk)
+TEST(HostThreads, AreLimitedByVtk)
 {
   if (std::string(vtkSMPTools::GetBackend()) == "Sequential")
   {
@@ -106,7 +106,7 @@ TEST(HostThreads, AreNoMoreThanTheHostGivesToVtk)
   vtkSMPTools::Initialize(before);
 }
 
-TEST(Processors, MayBeAQuotaOfAGroup)
+TEST(Processors, AreLimitedByTheCgroupQuota)
 {
   const TemporaryFolder root;
   const auto write = [&root](const std::string& name, const std::string& text)

@@ -76,7 +76,7 @@ TEST(ImagePyramid, Level0SharesTheInput)
   EXPECT_EQ(Level(filter->GetOutput(), 1)->GetPointData()->GetNumberOfArrays(), 1);
 }
 
-TEST(ImagePyramid, KeepsThePlaceOfTheFirstVoxelAndTheRealSize)
+TEST(ImagePyramid, KeepsThePositionOfTheFirstVoxelAndThePhysicalSize)
 {
   const auto image = RandomImage(40, 30, 20);
   image->SetExtent(5, 44, -7, 22, 100, 119);
@@ -104,7 +104,7 @@ TEST(ImagePyramid, KeepsThePlaceOfTheFirstVoxelAndTheRealSize)
   }
 }
 
-TEST(ImagePyramid, IsTheSameBitsForAnyNumberOfThreads)
+TEST(ImagePyramid, IsBitIdenticalForAnyNumberOfThreads)
 {
   const auto image = RandomImage(150, 130, 60, VTK_SHORT);
   const auto filter = PyramidOf(image);
@@ -121,7 +121,7 @@ TEST(ImagePyramid, IsTheSameBitsForAnyNumberOfThreads)
   }
 }
 
-TEST(ImagePyramid, TakesTheChosenArray)
+TEST(ImagePyramid, UsesTheSelectedArray)
 {
   const auto image = RandomImage(30, 30, 30);
   vtkNew<vtkDoubleArray> other;
@@ -141,7 +141,7 @@ TEST(ImagePyramid, TakesTheChosenArray)
   EXPECT_STREQ(Voxels(image)->GetName(), "Voxels") << "the input's active scalars stay";
 }
 
-TEST(ImagePyramid, TakesArraysOfOtherMemoryLayouts)
+TEST(ImagePyramid, AcceptsOtherMemoryLayouts)
 {
   const auto image = RandomImage(20, 20, 20);
   const auto expected = PyramidOf(image, 2);
@@ -169,7 +169,7 @@ TEST(ImagePyramid, TakesArraysOfOtherMemoryLayouts)
     Level(PyramidOf(mask, 2)->GetOutput(), 1), Level(PyramidOf(image, 2)->GetOutput(), 1)));
 }
 
-TEST(ImagePyramid, CountsTheLevelsThatItWillMake)
+TEST(ImagePyramid, CountsLevels)
 {
   for (const std::array<int, 3> size :
     { std::array<int, 3>{ 64, 50, 40 }, { 8, 9, 200 }, { 30, 40, 1 } })
@@ -196,7 +196,8 @@ namespace
 {
 vtkSmartPointer<vtkImageData> LargeImage()
 {
-  return ImageOf({ 256, 256, 256 }, [](int, int, int) { return 1.0; }, VTK_UNSIGNED_CHAR);
+  return ImageOf(
+    { 256, 256, 256 }, [](int, int, int) { return 1.0; }, VTK_UNSIGNED_CHAR);
 }
 
 class ImagePyramidProgress : public ::testing::Test

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// The levels hold what equation 5 says: the kernel's sum over places of the interpolated image.
+// The levels follow equation 5: the sum of the kernel over positions in the interpolated image.
 #include "FilterTestTools.h"
 
 using namespace volumic;
 
 namespace
 {
-/** V_h at a place in voxels of level h: trilinear, past the border the nearest voxel. */
+/** Return V_h at a position in voxels of level h: trilinear, outside the nearest voxel. */
 double Field(vtkImageData* image, std::array<double, 3> place)
 {
   const int* size = image->GetDimensions();
@@ -39,7 +39,7 @@ double Field(vtkImageData* image, std::array<double, 3> place)
   return sum;
 }
 
-/** Equation 5, word by word: the sum over 125 places of the field, each from 8 voxels. */
+/** Evaluate equation 5 directly: the sum over 125 positions, each from 8 voxels. */
 double DirectSum(vtkImageData* below, const double* spacing, const std::array<int, 3>& voxel)
 {
   const double kernel[5] = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
@@ -71,8 +71,7 @@ void ExpectDirectSums(vtkMultiBlockDataSet* pyramid, double tolerance)
     ForVoxels({ size[0], size[1], size[2] },
       [&](int i, int j, int k)
       {
-        const double expected =
-          DirectSum(Level(pyramid, h - 1), level->GetSpacing(), { i, j, k });
+        const double expected = DirectSum(Level(pyramid, h - 1), level->GetSpacing(), { i, j, k });
         worst = std::max(worst, std::abs(Voxels(level)->GetComponent(index, 0) - expected));
         ++index;
       });

@@ -37,7 +37,7 @@ TEST_F(ImagePyramidErrors, NoInput)
   EXPECT_TRUE(errors.Has("has 0 connections")) << errors.Get();
 }
 
-TEST_F(ImagePyramidErrors, ImagesThatAreOfNoUse)
+TEST_F(ImagePyramidErrors, ReportsInvalidImages)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   vtkNew<vtkImageData> withoutArray;
@@ -71,7 +71,7 @@ TEST_F(ImagePyramidErrors, ImagesThatAreOfNoUse)
   this->ExpectError(RandomImage(20, 20, 20), { "no point array 'Density'", "'Voxels'" });
 }
 
-TEST_F(ImagePyramidErrors, CellDataHasAWayOut)
+TEST_F(ImagePyramidErrors, ReportsCellData)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(5, 5, 5);
@@ -84,7 +84,7 @@ TEST_F(ImagePyramidErrors, CellDataHasAWayOut)
   this->ExpectError(image, { "'Density'", "not point data", "Cell Data to Point Data" });
 }
 
-TEST_F(ImagePyramidErrors, NoSuchComponent)
+TEST_F(ImagePyramidErrors, ReportsAnInvalidComponent)
 {
   vtkNew<vtkImageData> image;
   image->SetDimensions(20, 20, 20);
@@ -98,7 +98,8 @@ TEST_F(ImagePyramidErrors, NoSuchComponent)
         "0 to 2" });
   }
   this->Filter->SetSelectedComponent(1);
-  this->ExpectError(RandomImage(20, 20, 20), { "Selected Component is 1", "1 component. Set it to 0 or -1" });
+  this->ExpectError(
+    RandomImage(20, 20, 20), { "Selected Component is 1", "1 component. Set it to 0 or -1" });
 }
 
 TEST_F(ImagePyramidErrors, StringArray)

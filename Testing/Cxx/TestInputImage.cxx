@@ -102,7 +102,7 @@ TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
   }
 }
 
-TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
+TEST(InputImage, UsesTheOnlyImageOfACompositeDataset)
 {
   const auto image = BallImage(40, 40, 40);
   const auto requested = Updated<vtkVolumeToSurface>(image);
@@ -118,7 +118,7 @@ TEST(InputImage, TheOnlyImageOfACompositeDatasetIsTaken)
   }
 }
 
-TEST(InputImage, SeveralImagesAreRefused)
+TEST(InputImage, ReportsSeveralImages)
 {
   vtkNew<vtkMultiBlockDataSet> blocks;
   blocks->SetBlock(0, BallImage(24, 24, 24));

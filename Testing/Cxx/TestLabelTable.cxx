@@ -47,9 +47,9 @@ TEST(LabelTable, ListsTheLabelsOfAnImage)
   EXPECT_NE(colors->GetComponent(1, 0), colors->GetComponent(2, 0)) << "a palette";
 }
 
-TEST(LabelTable, TellsWhereLabelsAre)
+TEST(LabelTable, HasTheExtentsOfLabels)
 {
-  // A run of voxels over the end of rows and of slices, on both sides of what a thread takes.
+  // Voxels across ends of rows, of slices and of the span of a thread.
   const int begins[3] = { -2, 5, 70 };
   const auto image = LabelImageOf(80, 70, 60,
     [](int i, int j, int k)
@@ -70,7 +70,7 @@ TEST(LabelTable, TellsWhereLabelsAre)
   EXPECT_EQ(ExtentIn(extents, 3), (Extent{ 7, 7, 36, 37, 70, 129 }));
 }
 
-TEST(LabelTable, RefusesWhatIsNoLabelMap)
+TEST(LabelTable, ReportsImagesThatAreNotLabelMaps)
 {
   vtkNew<vtkLabelTable> table;
   table->SetInputData(RandomImage(30, 30, 30));
@@ -82,7 +82,7 @@ TEST(LabelTable, RefusesWhatIsNoLabelMap)
 
 namespace
 {
-/** What vtkVolumeToSurface warns of. */
+/** Return the warnings of vtkVolumeToSurface. */
 std::string WarningsOf(vtkVolumeToSurface* filter, vtkImageData* image)
 {
   filter->SetInputData(image);
@@ -93,21 +93,20 @@ std::string WarningsOf(vtkVolumeToSurface* filter, vtkImageData* image)
 }
 }
 
-TEST(LabelHint, WhoGivesALabelMapToVolumeToSurfaceIsToldOnce)
+TEST(LabelHint, VolumeToSurfaceWarnsOnce)
 {
   for (const int type : { VTK_UNSIGNED_CHAR, VTK_SHORT, VTK_FLOAT })
   {
     vtkNew<vtkVolumeToSurface> filter;
     filter->SetIsoValue(0.5);
-    const std::string warnings =
-      WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type));
+    const std::string warnings = WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type));
     EXPECT_TRUE(Has(warnings, "array 'Labels' looks like a label map: 3 different integers"));
     EXPECT_TRUE(Has(warnings, "Labels to Surfaces"));
     EXPECT_EQ(WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type)), "") << "once";
   }
 }
 
-TEST(LabelHint, IsToldAtTheEndOfTheRun)
+TEST(LabelHint, IsReportedAtTheEndOfTheRun)
 {
   vtkNew<vtkVolumeToSurface> filter;
   filter->SetInputData(LabelImageOf(34, 28, 28, TwoBalls, VTK_SHORT));
@@ -122,12 +121,12 @@ TEST(LabelHint, IsToldAtTheEndOfTheRun)
   EXPECT_TRUE(warnings.Has("looks like a label map"));
 }
 
-TEST(LabelHint, ScansAreNoLabelMaps)
+TEST(LabelHint, ScansAreNotLabelMaps)
 {
   vtkNew<vtkVolumeToSurface> filter;
   filter->SetIsoValue(50.);
   EXPECT_EQ(WarningsOf(filter, BallImage(30, 30, 30)), "");
-  // Of noise something may be lost, which is told.
+  // Noise may have missed parts, with another warning.
   EXPECT_FALSE(Has(WarningsOf(filter, RandomImage(20, 20, 20, VTK_UNSIGNED_CHAR)), "label map"));
   // Integers of 8 bits that change from voxel to voxel.
   const auto soft = [](int i, int j, int k)

@@ -295,6 +295,7 @@ TEST(LabelParts, AreReported)
   vtkAbstractArray* missed = filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels");
   ASSERT_TRUE(missed);
   EXPECT_EQ(vtkStringArray::SafeDownCast(missed)->GetValue(0),
-    "Parts have another volume than their voxels, of Label 1 (2 of 3), Label 2 (2 of 2): too "
-    "small, scattered, or too thin for the triangles.");
+    "The enclosed volume of parts differs from their voxels for Label 1 (2 of 3), Label 2 (2 of "
+    "2). "
+    "They are too small, scattered, or too thin for the triangles.");
 }

@@ -12,7 +12,7 @@ namespace
 using Names = std::vector<std::string>;
 }
 
-TEST(LabelsToSurfaces, GivesEachLabelAClosedSmoothSurface)
+TEST(LabelsToSurfaces, HasAClosedSmoothSurfaceOfEachLabel)
 {
   const auto filter = LabelSurfacesOf(BallsImage());
   EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 3", "Label 7" }));
@@ -43,7 +43,7 @@ TEST(LabelsToSurfaces, GivesEachLabelAClosedSmoothSurface)
   }
 }
 
-TEST(LabelsToSurfaces, TakesIntegersOfAnyTypeAsPointsOrCells)
+TEST(LabelsToSurfaces, AcceptsIntegersOfAnyTypeAsPointsOrCells)
 {
   const auto requested = LabelSurfacesOf(BallsImage());
   for (const int type : { VTK_UNSIGNED_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_SHORT, VTK_INT,
@@ -60,7 +60,7 @@ TEST(LabelsToSurfaces, TakesIntegersOfAnyTypeAsPointsOrCells)
   ExpectSameBlocks(LabelSurfacesOf(cells)->GetOutput(), requested->GetOutput());
 }
 
-TEST(LabelsToSurfaces, TakesRealNumbersThatAreIntegersWithAWarning)
+TEST(LabelsToSurfaces, AcceptsFloatingPointIntegersWithAWarning)
 {
   for (const int type : { VTK_FLOAT, VTK_DOUBLE })
   {
@@ -73,7 +73,7 @@ TEST(LabelsToSurfaces, TakesRealNumbersThatAreIntegersWithAWarning)
   }
 }
 
-TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
+TEST(LabelsToSurfaces, RenumbersLabelsOutsideTheRangeOfInt)
 {
   const auto balls = LabelSurfacesOf(BallsImage());
   const auto names = BlockNames(balls->GetOutput());
@@ -100,9 +100,9 @@ TEST(LabelsToSurfaces, NumbersAnewWhatNoIntHolds)
   EXPECT_EQ(names, (Names{ "Label 3", "Label 7" }));
 }
 
-TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
+TEST(LabelsToSurfaces, IsBitIdenticalForAnyNumberOfThreadsAndRuns)
 {
-  // Many that meet by threes, and large ones.
+  // Many labels with junction lines, and large labels.
   const auto cells = [](int i, int j, int k)
   {
     const int x = (i + 4) % 32; // opposite sides have the same labels
@@ -134,7 +134,7 @@ TEST(LabelsToSurfaces, AreTheSameBitsOnAnyNumberOfThreadsAndAgain)
   }
 }
 
-TEST(LabelsToSurfaces, MakesThoseThatAreChosen)
+TEST(LabelsToSurfaces, MeshesSelectedLabels)
 {
   vtkNew<vtkLabelsToSurfaces> filter;
   filter->SetInputData(BallsImage());
@@ -156,7 +156,7 @@ TEST(LabelsToSurfaces, MakesThoseThatAreChosen)
   EXPECT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0", "Label 7" }));
 }
 
-TEST(LabelsToSurfaces, ALabelHasTheSameSurfaceWhicheverOthersAreMade)
+TEST(LabelsToSurfaces, SurfacesAreIndependentOfTheSelection)
 {
   const auto sectors = [](int i, int j, int k) {
     return k < 8 ? 9 : std::atan2(j - 15.3, i - 15.6) < -1. ? 1 : i < 16 ? 2 : k < 20 ? 3 : 0;
@@ -232,7 +232,7 @@ TEST(LabelsToSurfaces, LabelsOfMergedCellsAreOfTheNearestVoxels)
   EXPECT_GT(std::min(counts[0], counts[1]), 100);
 }
 
-TEST(LabelsToSurfaces, HasNamesAndColoursOfTheImageAndItsOwn)
+TEST(LabelsToSurfaces, HasNamesAndColorsOfImageAndFilter)
 {
   const auto image = BallsImage();
   AddNames(image);
@@ -257,14 +257,14 @@ TEST(LabelsToSurfaces, HasNamesAndColoursOfTheImageAndItsOwn)
   EXPECT_NEAR(FieldOf(BlockOf(filter, 0), "LabelColor", 1), 0.4, 1e-9);
 }
 
-TEST(LabelsToSurfaces, KeepsToOriginSpacingDirectionAndExtent)
+TEST(LabelsToSurfaces, AppliesOriginSpacingDirectionAndExtent)
 {
   const auto plain = LabelSurfacesOf(BallsImage());
   const auto image = BallsImage();
   image->SetExtent(5, 38, -7, 20, 100, 127);
   image->SetOrigin(10., 20., 30.);
   image->SetSpacing(2., 2., 2.);
-  // A mirror among them.
+  // One direction matrix is a reflection.
   const double direction[9] = { 0., 1., 0., 1., 0., 0., 0., 0., 1. };
   image->SetDirectionMatrix(direction);
   const auto moved = LabelSurfacesOf(image);
@@ -284,7 +284,7 @@ TEST(LabelsToSurfaces, KeepsToOriginSpacingDirectionAndExtent)
   }
 }
 
-TEST(LabelsToSurfaces, TrianglesAreAsLargeAsAskedFor)
+TEST(LabelsToSurfaces, HasTheRequestedEdgeLength)
 {
   const auto image = BallsImage();
   const auto filter = LabelSurfacesOf(image);

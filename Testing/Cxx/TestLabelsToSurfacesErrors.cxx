@@ -11,7 +11,7 @@ using namespace volumic;
 
 namespace
 {
-/** A filter that would work: each test spoils one thing, expects to be told, and mends it. */
+/** A valid filter. Each test makes something invalid, expects an error, and restores it. */
 class LabelsToSurfacesErrors : public ::testing::Test
 {
 protected:
@@ -36,12 +36,12 @@ protected:
 
   static vtkSmartPointer<vtkImageData> Balls() { return LabelImageOf(34, 28, 28, TwoBalls); }
 
-  /** What the field data of all surfaces tell of those that are lost. */
+  /** Return the field data `LostLabels`. */
   std::string MissedLabels()
   {
-    auto* told = vtkStringArray::SafeDownCast(
+    auto* labels = vtkStringArray::SafeDownCast(
       this->Filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels"));
-    return told ? told->GetValue(0) : std::string();
+    return labels ? labels->GetValue(0) : std::string();
   }
 
   void ExpectError(const std::vector<std::string>& parts)
@@ -54,14 +54,14 @@ protected:
 };
 }
 
-TEST_F(LabelsToSurfacesErrors, LabelsThatAreNotThereAreNamedWithThoseThatAre)
+TEST_F(LabelsToSurfacesErrors, ReportsMissingLabels)
 {
   this->Filter->AddLabel(3);
   this->Filter->AddLabel(4);
   this->ExpectError({ "Labels", "'Labels'", "no label 4", "0, 3, 7" });
 }
 
-TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
+TEST_F(LabelsToSurfacesErrors, ReportsImagesThatAreNotLabelMaps)
 {
   const auto map = [](int slices, const std::function<double(int)>& at, int type = VTK_SHORT)
   {
@@ -90,7 +90,7 @@ TEST_F(LabelsToSurfacesErrors, ImagesThatAreNoLabelMaps)
   }
 }
 
-TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
+TEST_F(LabelsToSurfacesErrors, ReportsTooManyLabels)
 {
   this->Filter->SetInputData(LabelImageOf(
     17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
@@ -100,14 +100,14 @@ TEST_F(LabelsToSurfacesErrors, MoreLabelsThanALabelMapHas)
   this->ExpectError({ "more than 4096 different values outside the range of int", "10000000000" });
   this->Filter->SetInputData(LabelImageOf(
     17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
-  // Some of them can be chosen.
+  // Some of them can be selected.
   this->Filter->AddLabel(100);
   this->Filter->SetTimeLimit(1e-9); // not to mesh the others
   this->Filter->Update();
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::NoError);
 }
 
-TEST_F(LabelsToSurfacesErrors, AMapThatLooksLikeAScanIsReportedBeforeItIsMeshed)
+TEST_F(LabelsToSurfacesErrors, WarnsOfScansBeforeMeshing)
 {
   const auto warningOf = [this](const std::function<double(int, int, int)>& at)
   {
@@ -134,7 +134,7 @@ TEST_F(LabelsToSurfacesErrors, AMapThatLooksLikeAScanIsReportedBeforeItIsMeshed)
     << "blocks of 4 x 4 x 4 voxels";
 }
 
-TEST_F(LabelsToSurfacesErrors, AnArrayThatIsNotThere)
+TEST_F(LabelsToSurfacesErrors, ReportsAMissingArray)
 {
   this->Filter->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "segmentation");
@@ -166,7 +166,7 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetMinimumComponentVolume, 0., infinite, { "Minimum Component Volume is inf" });
 }
 
-TEST_F(LabelsToSurfacesErrors, NamesThatAreNotAsManyAsLabels)
+TEST_F(LabelsToSurfacesErrors, ReportsAWrongNumberOfNames)
 {
   const auto image = Balls();
   vtkNew<vtkIntArray> values;
@@ -207,7 +207,7 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
   EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
 
-TEST_F(LabelsToSurfacesErrors, LabelsLeftOutByKeepComponentsAreNamed)
+TEST_F(LabelsToSurfacesErrors, NamesLabelsRemovedByKeepComponents)
 {
   const auto speck = [](int i, int j, int k)
   { return i == 30 && j == 3 && k == 3 ? 9. : TwoBalls(i, j, k); };

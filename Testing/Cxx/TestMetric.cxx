@@ -54,15 +54,15 @@ vtkSmartPointer<vtkPolyData> SurfaceIn(int metric, vtkImageData* image)
 
 }
 
-TEST(Metric, MakesNoDifferenceWhereVoxelsAreCubes)
+TEST(Metric, HasNoEffectOnCubicVoxels)
 {
   const auto image = BallImage(40, 40, 40);
   image->SetSpacing(0.3, 0.3, 0.3);
-  EXPECT_TRUE(AreSameSurfaces(SurfaceIn(vtkDeformableSurface::World, image),
-    SurfaceIn(vtkDeformableSurface::Voxels, image)));
+  EXPECT_TRUE(AreSameSurfaces(
+    SurfaceIn(vtkDeformableSurface::World, image), SurfaceIn(vtkDeformableSurface::Voxels, image)));
 }
 
-TEST(Metric, HoldsForTurnedAndMirroredImages)
+TEST(Metric, AppliesToRotatedAndMirroredImages)
 {
   const auto image = FlatBall(2.);
   const double direction[9] = { 0, 0, -1, 1, 0, 0, 0, 1, 0 };
@@ -77,7 +77,7 @@ TEST(Metric, HoldsForTurnedAndMirroredImages)
   EXPECT_LE(edges.Longest, 2.501 * 0.85);
 }
 
-TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
+TEST(Metric, RecoversPartsAcrossThickSlices)
 {
   // A needle along z that no coarse level shows, beside a ball that they do.
   const double stretch = 4.;
@@ -92,7 +92,7 @@ TEST(Metric, RecoversWhatLiesAcrossSlicesFarApart)
   EXPECT_NEAR(bounds[4], 1.5 * stretch, 0.6 * stretch);
 }
 
-TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
+TEST(EdgeLength, IsMetFromLevelMinus1ToCoarseLevels)
 {
   const auto image = BallImage(64, 64, 64);
   image->SetSpacing(0.5, 0.5, 0.5);
@@ -111,25 +111,24 @@ TEST(EdgeLength, IsMetFromFinerThanTheImageToSeveralLevelsUp)
   }
 }
 
-TEST(EdgeLength, ChoosesOfThePyramidThatIsGiven)
+TEST(EdgeLength, UsesTheLevelsOfAnInputPyramid)
 {
   const auto pyramid = PyramidOf(BallImage(64, 64, 64));
-  const auto filter = SurfaceOf(pyramid->GetOutput(),
-    [](vtkDeformableSurface* f) { f->SetEdgeLength(2.6); });
+  const auto filter =
+    SurfaceOf(pyramid->GetOutput(), [](vtkDeformableSurface* f) { f->SetEdgeLength(2.6); });
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
   EXPECT_NEAR(EdgesOf(filter->GetOutput()).Mean, 2.6, 0.4);
   // Between what levels 0 and 1 can give.
   filter->SetEdgeLength(1.85);
-  ExpectErrorOf(filter,
-    { "Edge Length is 1.85", "to 1.7, 2.0", "the image instead of its pyramid" });
+  ExpectErrorOf(
+    filter, { "Edge Length is 1.85", "to 1.7, 2.0", "the image instead of its pyramid" });
 }
 
-TEST(EdgeLength, ThatIsNotPossibleIsRefused)
+TEST(EdgeLength, ReportsImpossibleLengths)
 {
   const auto filter = FilterOf<vtkVolumeToSurface>(BallImage(40, 40, 40));
   filter->SetEdgeLength(0.1);
-  ExpectErrorOf(
-    filter, { "Edge Length is 0.1, but edges of this image can have mean lengths" });
+  ExpectErrorOf(filter, { "Edge Length is 0.1, but edges of this image can have mean lengths" });
   filter->SetEdgeLength(1000.);
   ExpectErrorOf(filter, { "Give a shorter one, or allow coarser levels by Minimum Level Size" });
   filter->SetEdgeLength(-2.);

@@ -7,7 +7,7 @@ using namespace volumic;
 namespace
 {
 /**
- * A ball, and sheets of one voxel about it, which coarse levels lose and level 0 cannot hold well.
+ * A ball and sheets of one voxel around it, which coarse levels miss and level 0 does not resolve.
  */
 vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
 {
@@ -19,7 +19,7 @@ vtkSmartPointer<vtkImageData> BallAndSheets(int sheets)
   return image;
 }
 
-/** Runs, and gives what is warned of. */
+/** Update, and return the warnings. */
 std::string WarningsOf(vtkDeformableSurface* filter, vtkImageData* image)
 {
   filter->SetInputData(image);
@@ -30,7 +30,7 @@ std::string WarningsOf(vtkDeformableSurface* filter, vtkImageData* image)
 }
 }
 
-TEST(MissingBoundary, IsNoneWhereTheSurfaceHasAll)
+TEST(MissingBoundary, Is0ForACompleteSurface)
 {
   vtkNew<vtkDeformableSurface> filter;
   EXPECT_EQ(WarningsOf(filter, BallAndSheets(0)), "");
@@ -38,7 +38,7 @@ TEST(MissingBoundary, IsNoneWhereTheSurfaceHasAll)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "MissingParts"), 0.0);
 }
 
-TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
+TEST(MissingBoundary, IsTheFractionOfThinParts)
 {
   vtkNew<vtkDeformableSurface> filter;
   const std::string warnings = WarningsOf(filter, BallAndSheets(2));
@@ -54,11 +54,11 @@ TEST(MissingBoundary, TellsTheShareOfWhatIsTooThin)
   EXPECT_EQ(CountOf(warnings, "of the object's boundary at level 0 is not on the surface"), 1)
     << warnings;
   EXPECT_EQ(CountOf(warnings, "Warning: In "), 1) << "once for the whole run: " << warnings;
-  EXPECT_TRUE(Has(warnings, "all of 2 parts that coarser levels had lost, too thin"));
+  EXPECT_TRUE(Has(warnings, "all of 2 parts missed by coarser levels"));
   EXPECT_TRUE(Has(warnings, "Set Finest Level to -1"));
 }
 
-TEST(MissingBoundary, IsLessAtTheLevelThatTheWarningNames)
+TEST(MissingBoundary, IsSmallerAtTheRecommendedLevel)
 {
   vtkNew<vtkDeformableSurface> filter;
   WarningsOf(filter, BallAndSheets(1));
@@ -70,19 +70,21 @@ TEST(MissingBoundary, IsLessAtTheLevelThatTheWarningNames)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 2);
 }
 
-TEST(MissingBoundary, IsToldButNotWarnedOfWhereItIsWhatWasAskedFor)
+TEST(MissingBoundary, HasNoWarningWithAPreviewOrASelection)
 {
   const std::pair<Choice, double> cases[] = {
     { [](vtkDeformableSurface* f) { f->SetRecovery(vtkDeformableSurface::NoRecovery); }, 0.01 },
     { [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); }, 0.05 },
     { [](vtkDeformableSurface* f) { f->PreviewOn(); }, 0.01 },
-    { [](vtkDeformableSurface* f) { f->SetMinimumPartSize(44 * 44 + 1); }, -1.0 } };
+    { [](vtkDeformableSurface* f) { f->SetMinimumPartSize(44 * 44 + 1); }, -1.0 }
+  };
   for (const auto& [choose, least] : cases)
   {
     vtkNew<vtkDeformableSurface> filter;
     choose(filter);
     EXPECT_EQ(WarningsOf(filter, BallAndSheets(2)), "");
     EXPECT_GT(FieldOf(filter->GetOutput(), "MissingBoundary"), least);
-    EXPECT_EQ(FieldOf(filter->GetOutput(), "LostParts") == 0.0, least < 0.0) << "too small to count";
+    EXPECT_EQ(FieldOf(filter->GetOutput(), "LostParts") == 0.0, least < 0.0)
+      << "too small to count";
   }
 }

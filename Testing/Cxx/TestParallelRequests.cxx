@@ -28,7 +28,7 @@ namespace
 {
 constexpr int Side = 24;
 
-/** Makes the requested part of a ball (100) in Side^3 voxels, and counts its voxels. */
+/** A source that computes the requested part of a ball, and counts its voxels. */
 class CountingSource : public vtkImageAlgorithm
 {
 public:
@@ -106,7 +106,7 @@ protected:
     this->Labels, this->Table, this->Otsu };
 };
 
-/** The blocks of an output that another process has are named as the first one's, and null. */
+/** Check that the blocks of another process have the same names, and are null. */
 void ExpectSameBlocks(vtkAlgorithm* filter, int port)
 {
   filter->UpdatePiece(1, 2, 0);
@@ -125,7 +125,7 @@ void ExpectSameBlocks(vtkAlgorithm* filter, int port)
 }
 }
 
-TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
+TEST_F(ParallelRequests, FirstProcessComputesTheWholeOutput)
 {
   for (vtkAlgorithm* filter : this->Filters)
   {
@@ -152,7 +152,7 @@ TEST_F(ParallelRequests, TheFirstProcessMakesTheWholeOutputAndTheOthersNone)
   }
 }
 
-TEST_F(ParallelRequests, HaveTheSurfaceOfOneProcess)
+TEST_F(ParallelRequests, HaveTheSurfaceOfASingleProcess)
 {
   this->Surface->Update();
   this->VolumeToSurface->UpdatePiece(0, 4, 0);
@@ -222,7 +222,7 @@ TEST_F(ParallelRequests, HaveTheSameBlocksAfterAnError)
   EXPECT_NE(others.Get(), "");
 }
 
-TEST_F(ParallelRequests, AreTheSameInAllProcessesWhereAnImageIsResampled)
+TEST_F(ParallelRequests, AreTheSameInAllProcessesForAResampledImage)
 {
   vtkNew<vtkResampleToImage> resampled; // ParaView's ends all processes where they differ.
   resampled->SetInputConnection(this->Source->GetOutputPort());
@@ -241,7 +241,7 @@ TEST_F(ParallelRequests, AreTheSameInAllProcessesWhereAnImageIsResampled)
   }
 }
 
-TEST_F(ParallelRequests, AreRefusedWhereTheSourceGivesTheFirstProcessAPart)
+TEST_F(ParallelRequests, ReportDistributedSources)
 {
   this->Source->IsDistributed = true;
   for (vtkAlgorithm* filter : this->Filters)
@@ -249,8 +249,9 @@ TEST_F(ParallelRequests, AreRefusedWhereTheSourceGivesTheFirstProcessAPart)
     SCOPED_TRACE(filter->GetClassName());
     const MessagesOf errors(filter);
     filter->UpdatePiece(0, 2, 0);
-    EXPECT_TRUE(Has(errors.Get(), "Input port 0: the source provides only 24 x 24 x 13 of the image's "
-                                  "24 x 24 x 24 voxels"));
+    EXPECT_TRUE(Has(errors.Get(),
+      "Input port 0: the source provides only 24 x 24 x 13 of the image's "
+      "24 x 24 x 24 voxels"));
     EXPECT_TRUE(Has(errors.Get(), "Save the distributed image as .pvti"));
     EXPECT_EQ(SizeOfOutput(filter), 0);
     filter->UpdatePiece(1, 2, 0);

@@ -6,7 +6,7 @@ using namespace volumic;
 
 namespace
 {
-/** A pyramid, whose voxels are watched while a surface goes through the levels. */
+/** A pyramid whose allocated levels are counted during a run. */
 class ReleasedLevels : public ::testing::Test
 {
 protected:
@@ -25,7 +25,7 @@ protected:
     this->Filter->SetIsoValue(50.0);
   }
 
-  /** How many levels have voxels while the surface iterates on each: the most that is seen. */
+  /** Maximum number of levels with voxels while the surface iterates on each level. */
   void Count(const std::string& text)
   {
     for (std::size_t level = 0; level < this->Voxels.size(); ++level)
@@ -52,7 +52,7 @@ protected:
 };
 }
 
-TEST_F(ReleasedLevels, GoOneAfterTheOther)
+TEST_F(ReleasedLevels, AreReleasedOneByOne)
 {
   this->Pyramid->ReleaseDataFlagOn();
   this->Filter->Update();
@@ -68,7 +68,7 @@ TEST_F(ReleasedLevels, StayWithTheOwnerOfThePyramid)
   EXPECT_EQ(this->NumberHeld(), 4);
 }
 
-TEST_F(ReleasedLevels, AreTheRunsAsLongAsItCanGoOn)
+TEST_F(ReleasedLevels, AreKeptWhileTheRunCanResume)
 {
   this->Filter->SetFinestLevel(2);
   this->Filter->Update();

@@ -35,8 +35,8 @@ std::size_t BytesFrom(const TemporaryFolder& folder)
 std::size_t MostOf(vtkAlgorithm* filter, const TemporaryFolder& folder)
 {
   std::size_t most = 0;
-  const ProgressHook hook(filter, [&](vtkAlgorithm*, const std::string&, double)
-    { most = std::max(most, BytesFrom(folder)); });
+  const ProgressHook hook(filter,
+    [&](vtkAlgorithm*, const std::string&, double) { most = std::max(most, BytesFrom(folder)); });
   filter->Update();
   EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
   return std::max(most, BytesFrom(folder));
@@ -90,8 +90,8 @@ TEST(ScratchDirectory, HoldsTheArraysOfASurface)
   const auto image = BallImage(Size, Size, Size, 0.4);
   const auto usual = SurfaceOf<vtkVolumeToSurface>(image);
   {
-    const auto filter = FilterOf<vtkVolumeToSurface>(image,
-      [&](vtkVolumeToSurface* f) { f->SetScratchDirectory(folder.Path().c_str()); });
+    const auto filter = FilterOf<vtkVolumeToSurface>(
+      image, [&](vtkVolumeToSurface* f) { f->SetScratchDirectory(folder.Path().c_str()); });
     EXPECT_GT(MostOf(filter, folder), 3 * MiB) << "levels and the mesh";
     ExpectSameSurfaces(usual->GetOutput(), filter->GetOutput());
   }
@@ -126,15 +126,15 @@ TEST(ScratchDirectory, HoldsTheArraysOfLabels)
   ExpectSameSurfaces(usual->GetInterfaces(), filter->GetInterfaces());
 }
 
-TEST(ScratchDirectory, ThatCannotBeUsedIsAnError)
+TEST(ScratchDirectory, ReportsAnInvalidDirectory)
 {
   const auto image = BallImage(Size, Size, Size);
   vtkNew<vtkImagePyramid> pyramid;
   pyramid->SetInputData(image);
-  ExpectErrors<vtkImagePyramid>(pyramid,
-    [&] { return vtkIdType(pyramid->GetOutput()->GetNumberOfBlocks()); });
-  const auto surface = FilterOf<vtkDeformableSurface>(image,
-    [](vtkDeformableSurface* f) { f->SetFinestLevel(2); });
+  ExpectErrors<vtkImagePyramid>(
+    pyramid, [&] { return vtkIdType(pyramid->GetOutput()->GetNumberOfBlocks()); });
+  const auto surface =
+    FilterOf<vtkDeformableSurface>(image, [](vtkDeformableSurface* f) { f->SetFinestLevel(2); });
   ExpectErrors<vtkDeformableSurface>(
     surface, [&] { return surface->GetOutput()->GetNumberOfPoints(); });
   const auto labels = LabelsOf();
@@ -143,7 +143,7 @@ TEST(ScratchDirectory, ThatCannotBeUsedIsAnError)
     labels, [&] { return labels->GetInterfaces()->GetNumberOfPoints(); });
 }
 
-TEST(ScratchDirectory, IsWhatAMemoryLimitPointsTo)
+TEST(ScratchDirectory, IsNamedByTheWarningOfMemoryLimit)
 {
   const auto expectOneWarning = [](auto filter)
   {

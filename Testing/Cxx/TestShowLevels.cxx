@@ -7,14 +7,13 @@ using namespace volumic;
 
 namespace
 {
-/** Shows its levels; its preview is level 1 of 2. */
+/** A filter with ShowLevels. Its preview is level 1 of 2. */
 vtkSmartPointer<vtkVolumeToSurface> ShowingFilterOf(vtkImageData* image)
 {
-  return FilterOf<vtkVolumeToSurface>(
-    image, [](vtkVolumeToSurface* f) { f->ShowLevelsOn(); });
+  return FilterOf<vtkVolumeToSurface>(image, [](vtkVolumeToSurface* f) { f->ShowLevelsOn(); });
 }
 
-/** The levels that who asks for updates sees, one after the other. */
+/** Return the levels that a caller of GetNeedsUpdate() gets, in order. */
 std::vector<int> LevelsShown(vtkDeformableSurface* filter)
 {
   std::vector<int> levels;
@@ -33,7 +32,7 @@ vtkSmartPointer<vtkImageData> LargeBall()
 }
 }
 
-TEST(ShowLevels, GivesThemOneByOneToWhoAsks)
+TEST(ShowLevels, OutputsLevelsOneByOne)
 {
   const auto image = LargeBall();
   const auto filter = ShowingFilterOf(image);
@@ -67,7 +66,7 @@ TEST(ShowLevels, ShowsTheLevelThatWasStopped)
   }
 }
 
-TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
+TEST(ShowLevels, HasNoEffectWithoutNeedsUpdate)
 {
   const auto filter = ShowingFilterOf(LargeBall());
   filter->Update();
@@ -75,7 +74,7 @@ TEST(ShowLevels, HasNoEffectWhereNobodyAsks)
   EXPECT_FALSE(filter->GetNeedsUpdate());
 }
 
-TEST(ShowLevels, WarnsAtTheEndOnly)
+TEST(ShowLevels, WarnsOnlyAtTheEnd)
 {
   const auto image = LargeBall();
   Voxels(image)->SetComponent(0, 0, vtkMath::Nan());
@@ -92,7 +91,7 @@ TEST(ShowLevels, WarnsAtTheEndOnly)
   EXPECT_TRUE(warnings.Has("has 1 NaN voxel")) << warnings.Get();
 }
 
-TEST(ShowLevels, IsOverAfterAnErrorAndAtTheTimeLimit)
+TEST(ShowLevels, EndsAfterAnErrorAndAtTheTimeLimit)
 {
   const auto filter = ShowingFilterOf(LargeBall());
   filter->GetNeedsUpdate();

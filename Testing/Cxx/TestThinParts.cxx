@@ -7,7 +7,7 @@ using namespace volumic;
 
 namespace
 {
-/** A thick ball with a sheet of a voxel that stands off from it. */
+/** A thick ball with a protruding sheet of one voxel. */
 vtkSmartPointer<vtkImageData> Image()
 {
   static const vtkSmartPointer<vtkImageData> image = []
@@ -32,7 +32,7 @@ vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const ThinChoice& cho
   return filter;
 }
 
-/** Run to its end. */
+/** Return the filter after Update(). */
 vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const ThinChoice& choose = {})
 {
   auto filter = Filter(thinParts, choose);
@@ -51,7 +51,7 @@ vtkIdType PointsOf(vtkDeformableSurface* filter)
 }
 }
 
-TEST(ThinParts, AreHeldByShorterEdgesThereAlone)
+TEST(ThinParts, HaveShorterEdges)
 {
   const auto even = Made(false);
   const auto thin = Made(true);
@@ -63,7 +63,8 @@ TEST(ThinParts, AreHeldByShorterEdgesThereAlone)
   EXPECT_LT(1.5 * PointsOf(thin), PointsOf(fine)) << "the ball keeps its triangles";
   EXPECT_GT(PointsOf(thin), PointsOf(even));
   EXPECT_EQ(FieldOf(surface, "MissingBoundary"), 0.);
-  EXPECT_EQ(FieldOf(surface, "NumberOfComponents"), FieldOf(fine->GetOutput(), "NumberOfComponents"));
+  EXPECT_EQ(
+    FieldOf(surface, "NumberOfComponents"), FieldOf(fine->GetOutput(), "NumberOfComponents"));
   // A sheet of a voxel on either side of which the next voxel is air is a voxel thick.
   double range[2];
   ASSERT_TRUE(HasThickness(surface));
@@ -87,12 +88,11 @@ TEST(ThinParts, LeaveLevel0AsItIs)
   EXPECT_EQ(thin->GetFinestLevel(), 0) << "what was set stays what it is";
 }
 
-TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
+TEST(ThinParts, AreIdenticalToANewRunInAnyOrder)
 {
   const auto filter = Filter(false);
-  for (const auto& [thinParts, finest, preview] : std::vector<std::array<int, 3>>{
-         { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 1, 0, 0 }, { 0, -1, 0 },
-         { 1, -1, 0 } })
+  for (const auto& [thinParts, finest, preview] : std::vector<std::array<int, 3>>{ { 0, 0, 0 },
+         { 1, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 1, 0, 0 }, { 0, -1, 0 }, { 1, -1, 0 } })
   {
     SCOPED_TRACE(::testing::Message() << thinParts << " " << finest << " " << preview);
     const int level = finest;
@@ -109,9 +109,9 @@ TEST(ThinParts, GiveWhatARunFromTheStartGivesInWhateverOrder)
   }
 }
 
-TEST(ThinParts, GoWithATolerance)
+TEST(ThinParts, WorkWithATolerance)
 {
-  // What is flat has longer edges than those of the level, what is thin has shorter ones.
+  // Edges are longer in flat regions, and shorter in thin parts.
   const auto both = Made(true, [](vtkVolumeToSurface* f) { f->SetTolerance(0.4); });
   vtkPolyData* surface = both->GetOutput();
   EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
@@ -121,7 +121,7 @@ TEST(ThinParts, GoWithATolerance)
   EXPECT_LT(PointsOf(both), PointsOf(Made(true)));
 }
 
-TEST(ThinParts, AreTheSameOnAnyThreads)
+TEST(ThinParts, AreBitIdenticalForAnyNumberOfThreads)
 {
   const auto one = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(1); });
   const auto three = Made(true, [](vtkVolumeToSurface* f) { f->SetNumberOfThreads(3); });

@@ -11,14 +11,14 @@ using namespace volumic;
 
 namespace
 {
-/** Waits until the time of a run is over, when the n-th progress text with a part is heard. */
+/** Waits for the time limit at the n-th progress text that contains a part. */
 struct Waiter
 {
   int Left;
 
   Waiter(vtkAlgorithm* algorithm, const std::string& part, int left, double seconds)
-    : Left(left)
-    , Hook(algorithm,
+    : Left(left),
+      Hook(algorithm,
         [this, part, seconds](vtkAlgorithm*, const std::string& text, double)
         {
           if (text.find(part) != std::string::npos && --this->Left == 0)
@@ -33,7 +33,7 @@ struct Waiter
   ProgressHook Hook;
 };
 
-/** A run whose time is over at that text; it gets more time where the machine is slow. */
+/** Run a filter whose time limit is exceeded at that text. Allow more time on slow machines. */
 void RunOutOfTime(vtkDeformableSurface* filter, const std::string& part, int number)
 {
   for (double limit = 0.4; limit < 100.0; limit *= 2)
@@ -59,7 +59,7 @@ protected:
 };
 }
 
-TEST_F(TimeLimit, HandsOverAValidSurface)
+TEST_F(TimeLimit, GivesAValidSurface)
 {
   struct Case
   {
@@ -68,9 +68,10 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
     int Level; ///< of the surface handed over
     bool Rests;
   };
-  for (const Case& test : { Case{ "Level 2, iteration", 9, 2, false },
-         Case{ "Level 1, iteration", 1, 1, false }, Case{ "Level 1 is done", 1, 1, true },
-         Case{ "Level 0, subdivision", 1, 0, false }, Case{ "Level 0, optimization", 3, 0, false } })
+  for (const Case& test :
+    { Case{ "Level 2, iteration", 9, 2, false }, Case{ "Level 1, iteration", 1, 1, false },
+      Case{ "Level 1 is done", 1, 1, true }, Case{ "Level 0, subdivision", 1, 0, false },
+      Case{ "Level 0, optimization", 3, 0, false } })
   {
     SCOPED_TRACE(test.Part);
     const auto filter = FilterOf(this->Image);
@@ -88,8 +89,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
       ASSERT_EQ(block != nullptr, level >= test.Level);
       if (block)
       {
-        EXPECT_EQ(StopReason(block),
-          level > test.Level || test.Rests ? "converged" : "time limit");
+        EXPECT_EQ(StopReason(block), level > test.Level || test.Rests ? "converged" : "time limit");
       }
     }
     vtkTable* history = filter->GetHistory();
@@ -97,7 +97,7 @@ TEST_F(TimeLimit, HandsOverAValidSurface)
   }
 }
 
-TEST_F(TimeLimit, ChangesNothingWhereItIsNotReached)
+TEST_F(TimeLimit, HasNoEffectUnlessReached)
 {
   this->Filter->SetTimeLimit(1e4);
   this->Filter->Update();
@@ -105,7 +105,7 @@ TEST_F(TimeLimit, ChangesNothingWhereItIsNotReached)
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "converged");
 }
 
-TEST_F(TimeLimit, IsNotTakenAsFinished)
+TEST_F(TimeLimit, IsNotConverged)
 {
   RunOutOfTime(this->Filter, "Level 0, iteration", 1);
   ASSERT_EQ(StopReason(this->Filter->GetOutput()), "time limit");
@@ -119,7 +119,7 @@ TEST_F(TimeLimit, IsNotTakenAsFinished)
   EXPECT_TRUE(AreSameSurfaces(this->Filter->GetOutput(), SurfaceOf(this->Image)->GetOutput()));
 }
 
-TEST_F(TimeLimit, IsRefusedWhereItIsNoTime)
+TEST_F(TimeLimit, ReportsInvalidTimes)
 {
   for (const double seconds : { -1.0, std::numeric_limits<double>::quiet_NaN() })
   {

@@ -37,7 +37,7 @@ bool IsGraded(vtkPolyData* surface)
 }
 }
 
-TEST(Tolerance, TellsTheWantedEdgesAndWhatIsLeft)
+TEST(Tolerance, HasEdgeSizesAndDistances)
 {
   const auto even = Graded(0.0);
   EXPECT_FALSE(IsGraded(even->GetOutput()));
@@ -58,7 +58,7 @@ TEST(Tolerance, TellsTheWantedEdgesAndWhatIsLeft)
   EXPECT_EQ(StopReason(surface), "converged");
 }
 
-TEST(Tolerance, IsOfTheFinestLevelOnly)
+TEST(Tolerance, AppliesToTheFinestLevelOnly)
 {
   const auto filter = Graded(0.3);
   EXPECT_TRUE(IsGraded(SurfaceAt(filter, 0)));
@@ -67,7 +67,7 @@ TEST(Tolerance, IsOfTheFinestLevelOnly)
   EXPECT_TRUE(AreSameSurfaces(SurfaceAt(filter, 1), SurfaceAt(even, 1)));
 }
 
-TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
+TEST(Tolerance, IsIdenticalToANewRunAfterAnyRun)
 {
   const auto filter = GradedFilter(0.3);
   for (const int finest : { 1, 0, -1, 0, 1 })
@@ -84,7 +84,7 @@ TEST(Tolerance, GivesWhatARunFromTheStartGivesWhereverTheOneBeforeHasEnded)
 
 TEST(Tolerance, IsInWorldUnits)
 {
-  // The same image in micrometres.
+  // The same image in micrometers.
   vtkNew<vtkImageData> small;
   small->ShallowCopy(Image());
   small->SetSpacing(1e-3, 1e-3, 1e-3);
@@ -96,7 +96,7 @@ TEST(Tolerance, IsInWorldUnits)
       f->SetInputData(small);
       f->SetMaximumEdgeLength(4e-3);
     });
-  // Rounding of the lengths may have an edge split that is not there.
+  // Rounding of lengths may change whether an edge is split.
   EXPECT_NEAR(static_cast<double>(filter->GetOutput()->GetNumberOfPoints()),
     static_cast<double>(large->GetOutput()->GetNumberOfPoints()),
     0.02 * large->GetOutput()->GetNumberOfPoints());
@@ -110,16 +110,16 @@ TEST(Tolerance, IsInWorldUnits)
   EXPECT_LE(of[1], 1.6 / 2.5 * 4e-3 * 1.0001) << "edges of up to 4 micrometres";
 }
 
-TEST(Tolerance, IsTheSameOnAnyThreads)
+TEST(Tolerance, IsBitIdenticalForAnyNumberOfThreads)
 {
   const auto one = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(1); });
   const auto three = Graded(0.2, [](vtkDeformableSurface* f) { f->SetNumberOfThreads(3); });
   ExpectSameSurfaces(one->GetOutput(), three->GetOutput());
 }
 
-TEST(Tolerance, LosesNothingThatIsThinBesideASurfaceThatKeepsItsTriangles)
+TEST(Tolerance, KeepsThinPartsBesideAnUngradedSurface)
 {
-  // A sheet of a voxel, two voxels beside a ball; no coarser level shows it.
+  // A sheet of one voxel, two voxels beside a ball, that no coarser level resolves.
   const auto image = BallImage(40, 40, 40, 0.3);
   FillBox(image, { 3, 19, 4 }, { 6, 20, 36 });
   const auto input = [&image](vtkDeformableSurface* f) { f->SetInputData(image); };
@@ -142,7 +142,7 @@ TEST(Tolerance, LosesNothingThatIsThinBesideASurfaceThatKeepsItsTriangles)
   }
 }
 
-TEST(Tolerance, StaysWithTheComponentsThatAreKept)
+TEST(Tolerance, AppliesToKeptComponents)
 {
   const auto filter =
     Graded(0.2, [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); });
@@ -150,11 +150,11 @@ TEST(Tolerance, StaysWithTheComponentsThatAreKept)
   ASSERT_TRUE(IsGraded(filter->GetOutput()));
   EXPECT_EQ(filter->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetNumberOfTuples(),
     filter->GetOutput()->GetNumberOfPoints());
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "WithinTolerance"),
-    FieldOf(all->GetOutput(), "WithinTolerance"));
+  EXPECT_EQ(
+    FieldOf(filter->GetOutput(), "WithinTolerance"), FieldOf(all->GetOutput(), "WithinTolerance"));
 }
 
-TEST(Tolerance, WhatIsWrongIsNamedWithTheWayOut)
+TEST(Tolerance, ReportsInvalidProperties)
 {
   struct Case
   {
@@ -182,8 +182,10 @@ TEST(Tolerance, WhatIsWrongIsNamedWithTheWayOut)
     { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SetEdgeLength(1.5); },
       { "Thin Parts is on and Edge Length is 1.5", "Set Edge Length to 0" } },
     { [](vtkDeformableSurface* f) { f->ThinPartsOn(), f->SetEdgeLength(1.5); },
-      { "Tolerance is 0.2 and Edge Length is 1.5", "set Tolerance to 0 and switch Thin Parts off" } },
-    { [](vtkDeformableSurface* f) { f->SetTolerance(0.), f->ThinPartsOn(), f->SnapToIsoValueOff(); },
+      { "Tolerance is 0.2 and Edge Length is 1.5",
+        "set Tolerance to 0 and switch Thin Parts off" } },
+    { [](vtkDeformableSurface* f)
+      { f->SetTolerance(0.), f->ThinPartsOn(), f->SnapToIsoValueOff(); },
       { "Thin Parts is on, but Snap To Iso Value is off", "Switch Thin Parts off" } },
     { [](vtkDeformableSurface* f)
       { f->SetTolerance(0.), f->ThinPartsOn(), f->SetIsopotentialWeight(0.); },

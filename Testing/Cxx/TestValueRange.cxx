@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Objects that have the values between IsoValue and UpperValue.
+// Objects with values between IsoValue and UpperValue.
 #include "SameOutputs.h"
 #include "vtkVolumeToSurface.h"
 
@@ -16,10 +16,11 @@ constexpr double Upper = 400.0;
 constexpr double Outer = 11.0;
 constexpr double Inner = 6.0;
 
-/** One material, 150, about another one, 600, with borders of a voxel. */
+/** A material of value 150 around another one of value 600, with borders of a voxel. */
 vtkSmartPointer<vtkImageData> TwoMaterials(int type = VTK_SHORT)
 {
-  return ImageOf({ 30, 31, 32 },
+  return ImageOf(
+    { 30, 31, 32 },
     [](int i, int j, int k)
     {
       const double r = std::hypot(i - 14.5, j - 15.0, k - 15.5);
@@ -29,7 +30,7 @@ vtkSmartPointer<vtkImageData> TwoMaterials(int type = VTK_SHORT)
     type);
 }
 
-/** What a user could make of it by hand. */
+/** Fold the image outside the filter. */
 vtkSmartPointer<vtkImageData> Folded(vtkImageData* image)
 {
   vtkNew<vtkImageCast> cast;
@@ -69,7 +70,7 @@ double VolumeOfBall(double radius)
 }
 }
 
-TEST(ValueRange, IsOneOfTwoMaterials)
+TEST(ValueRange, SelectsOneOfTwoMaterials)
 {
   const auto filter = InRange(TwoMaterials());
   vtkPolyData* surface = filter->GetOutput();
@@ -84,7 +85,7 @@ TEST(ValueRange, IsOneOfTwoMaterials)
     << "in units of the image";
 }
 
-TEST(ValueRange, IsTheIsopotentialOfTheFoldedImage)
+TEST(ValueRange, IsTheIsosurfaceOfTheFoldedImage)
 {
   for (const int type : { VTK_SHORT, VTK_UNSIGNED_SHORT, VTK_FLOAT })
   {
@@ -99,7 +100,7 @@ TEST(ValueRange, IsTheIsopotentialOfTheFoldedImage)
   }
 }
 
-TEST(ValueRange, IsTheSameBitsHoweverTheImageComes)
+TEST(ValueRange, IsBitIdenticalForImagesAndPyramids)
 {
   const auto image = TwoMaterials(VTK_INT);
   const auto one = InRange(image);
@@ -111,7 +112,7 @@ TEST(ValueRange, IsTheSameBitsHoweverTheImageComes)
   expectSame(SurfaceOf<vtkVolumeToSurface>(image, SetRange));
 }
 
-TEST(ValueRange, IsNoneWhereItIsNotUsed)
+TEST(ValueRange, HasNoEffectIfNotUsed)
 {
   const auto image = TwoMaterials();
   const auto set = [](vtkDeformableSurface* filter) { filter->SetIsoValue(Lower); };
@@ -121,7 +122,7 @@ TEST(ValueRange, IsNoneWhereItIsNotUsed)
   EXPECT_EQ(FieldOf(plain->GetOutput(), "NumberOfComponents"), 1) << "the ball as a whole";
 }
 
-TEST(ValueRange, MayBeWhatTheObjectIsNot)
+TEST(ValueRange, CanBeTheBackground)
 {
   const auto filter = InRange(TwoMaterials(),
     [](vtkDeformableSurface* f)
@@ -134,7 +135,7 @@ TEST(ValueRange, MayBeWhatTheObjectIsNot)
   EXPECT_NEAR(FieldOf(filter->GetOutput(), "Volume") / VolumeOfBall(Inner - 0.05), 1.0, 0.06);
 }
 
-TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
+TEST(ValueRange, ReportsInvalidRanges)
 {
   struct Case
   {
@@ -148,7 +149,8 @@ TEST(ValueRange, WhatIsSetWrongIsNamedWithTheWayOut)
       Case{ 300, 300, { "Upper Value is 300, but Iso Value is 300" } },
       Case{ std::nan(""), 200, { "Upper Value is 200, but Iso Value is not set" } },
       Case{ -infinite, 200, { "Iso Value is -inf", "switch Object Is Bright off" } },
-      Case{ 100, std::nan(""), { "Upper Value is nan, but Iso Value is 100. Set Upper Value to more" } },
+      Case{ 100, std::nan(""),
+        { "Upper Value is nan, but Iso Value is 100. Set Upper Value to more" } },
       Case{ 610, 700, { "no voxel is between Iso Value, 610, and Upper Value, 700" } },
       Case{ -10, 700, { "all voxels are between Iso Value, -10, and Upper Value, 700" } } })
   {

@@ -39,7 +39,7 @@ double ThresholdOf(vtkImageData* image)
   return otsu->GetThreshold();
 }
 
-/** The image with its voxels as cells: the same values at the same places. */
+/** Return the image with its voxels as cells, at the same positions. */
 vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
 {
   auto cells = vtkSmartPointer<vtkImageData>::New();
@@ -57,19 +57,19 @@ vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
 }
 }
 
-TEST(OtsuThreshold, LiesBetweenTheClassesAndOnNoVoxel)
+TEST(OtsuThreshold, IsBetweenTheClassesAndNotAVoxelValue)
 {
   EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2, 3, 11, 12, 13 })), 7.0);
   EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ 0, 0, 1, 90, 91, 100 })), 45.5);
   EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ -5, -4 })), -4.5);
-  // Of three groups the nearest two are one class.
+  // The nearest two of three groups are one class.
   EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 0, 0, 10, 10, 60, 60 })), 35.0);
 }
 
-TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
+TEST(OtsuThreshold, HasAHistogram)
 {
-  const auto otsu = Updated<vtkOtsuThreshold>(
-    RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
+  const auto otsu =
+    Updated<vtkOtsuThreshold>(RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
   vtkDoubleArray* histogram = otsu->GetHistogram();
   ASSERT_EQ(histogram->GetNumberOfTuples(), 2 + 1024);
   EXPECT_EQ(histogram->GetValue(0), 10.0);
@@ -85,7 +85,7 @@ TEST(OtsuThreshold, HasTheHistogramThatItIsFoundBy)
   EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), 0);
 }
 
-TEST(OtsuThreshold, HasASecondOneForASmallBrightPart)
+TEST(OtsuThreshold, HasASecondThresholdForASmallBrightPart)
 {
   const auto brightOf = [](std::size_t dark, std::size_t medium, std::size_t bright)
   {
@@ -101,14 +101,13 @@ TEST(OtsuThreshold, HasASecondOneForASmallBrightPart)
   EXPECT_TRUE(std::isnan(brightOf(92, 7, 1))) << "the object is small already";
 }
 
-TEST(OtsuThreshold, LeavesOutNaN)
+TEST(OtsuThreshold, IgnoresNaN)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(
-    ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan })), 1.5);
+  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan })), 1.5);
 }
 
-TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
+TEST(OtsuThreshold, ReportsInseparableVoxels)
 {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
@@ -127,14 +126,14 @@ TEST(OtsuThreshold, RefusesWhatNoValueSeparates)
   }
 }
 
-TEST(VolumeToSurface, FindsAnObjectWithoutAnyChoice)
+TEST(VolumeToSurface, SegmentsWithDefaultSettings)
 {
   const auto filter = Updated<vtkVolumeToSurface>(BallImage(40, 40, 40));
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
   EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
 }
 
-TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
+TEST(VolumeToSurface, IsIdenticalToPyramidAndSurface)
 {
   const auto image = BallImage(40, 40, 40);
   const auto choose = [](auto* f)
@@ -148,7 +147,7 @@ TEST(VolumeToSurface, GivesWhatTheTwoFiltersGive)
   EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), SurfaceOf(pyramid->GetOutput())->GetOutput()));
 }
 
-TEST(VolumeToSurface, TakesTheCentresOfCellsAsVoxels)
+TEST(VolumeToSurface, UsesCellCentersAsVoxels)
 {
   const auto image = BallImage(40, 40, 40);
   image->SetOrigin(3, -2, 100);
@@ -160,7 +159,7 @@ TEST(VolumeToSurface, TakesTheCentresOfCellsAsVoxels)
   ASSERT_GT(ofCells->GetOutput()->GetNumberOfPoints(), 100);
   EXPECT_TRUE(AreSameSurfaces(ofCells->GetOutput(), ofPoints->GetOutput()));
 
-  // Also beside points, if chosen.
+  // Selected cell data are used also if there are active point scalars.
   vtkNew<vtkDoubleArray> other;
   other->SetName("Other");
   other->SetNumberOfTuples(cells->GetNumberOfPoints());
@@ -171,7 +170,7 @@ TEST(VolumeToSurface, TakesTheCentresOfCellsAsVoxels)
   EXPECT_TRUE(AreSameSurfaces(ofCells->GetOutput(), ofPoints->GetOutput()));
 }
 
-TEST(VolumeToSurface, SaysWhyThereIsNoIsoValue)
+TEST(VolumeToSurface, ReportsWhyThereIsNoThreshold)
 {
   const auto image = BallImage(20, 20, 20);
   Voxels(image)->Fill(4.0);

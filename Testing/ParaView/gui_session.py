@@ -239,7 +239,9 @@ class Session:
     def has_quit(self):
         """Wait for the end of the window. Return whether it ended without an error."""
         self.wait_for("\0")  # to the end of its output
-        return self._window.wait(PATIENCE) == 0
+        succeeded = self._window.wait(PATIENCE) == 0
+        self.close_window()
+        return succeeded
 
     def close_window(self):
         if self._window:

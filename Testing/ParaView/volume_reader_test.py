@@ -172,7 +172,7 @@ class VolumeReaderTest(testing.PluginTestCase):
         with testing.CapturedMessages() as of_filter:
             simple.VolumetoSurface(simple.Wavelet(), TimeLimit=-1).UpdatePipeline()
         self.assertEqual(shown_of(of_library.text), "ERROR: ValueError: the library fails")
-        self.assertEqual(shown_of(of_filter.text), "Time Limit is -1; it must be 0 (none) or more.")
+        self.assertEqual(shown_of(of_filter.text), "Time Limit is -1. Set it to 0 (none) or more seconds.")
 
     def test_a_folder_of_ome_zarr(self):
         zarr = importlib.import_module("zarr")

@@ -26,6 +26,9 @@ inline double AspectOf(const MeshTriangle& t)
 /** Least aspect of a new face: eq. (1) alone allows slivers, whose normals are unreliable. */
 constexpr double LeastAspect = 0.06;
 
+/** Least cosine between two faces at an edge that are certainly not folded onto each other. */
+constexpr float Unfolded = -0.99f;
+
 inline bool IsWellShaped(const MeshTriangle& t)
 {
   return AspectOf(t) > LeastAspect;

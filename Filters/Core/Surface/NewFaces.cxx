@@ -4,6 +4,7 @@
 
 #include "Core/Common/Box.h"
 #include "Core/Common/Spans.h"
+#include "Core/Surface/FaceShape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ namespace
 {
 /** Clearance, in delta, on one side of a plane beyond which two faces need no exact test. */
 constexpr float PlaneClearance = 0.01f;
-/** Least cosine between two faces at an edge that are certainly not folded onto each other. */
-constexpr float Unfolded = -0.99f;
 /** Twice the least area, in delta squared, with a reliable normal in float. */
 constexpr float LeastArea = 1e-2f;
 /** Factor of lambda: edges may exceed their bound until the end of an iteration. */

@@ -20,8 +20,7 @@ constexpr std::size_t AliveGrain = 1 << 14;
 
 void SurfaceState::Reset(const Vector& low, const Vector& high)
 {
-  Executor thread;
-  this->Reset(low, high, thread);
+  this->Reset(low, high, OnThisThread());
 }
 
 void SurfaceState::Reset(const Vector& low, const Vector& high, Executor& executor)
