@@ -12,17 +12,12 @@ namespace
 struct TwoBalls : Bench
 {
   explicit TwoBalls(double gap) : TwoBalls(Surface(gap)) {}
-  explicit TwoBalls(const IndexedSurface& surface)
-    : Bench(surface), Second(this->State.Mesh.Size() / 2)
-  {
-  }
+  explicit TwoBalls(const IndexedSurface& surface) : Bench(surface) {}
 
   static IndexedSurface Surface(double gap)
   {
     IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 4, 1.6);
-    const auto right = std::max_element(ball.Points.begin(), ball.Points.end(),
-      [](const Point& a, const Point& b) { return a[0] < b[0]; });
-    const double end = (*right)[0];
+    const double end = (*std::max_element(ball.Points.begin(), ball.Points.end()))[0];
     for (Point& p : ball.Points)
     {
       p = { p[0] - end - gap / 2 + 16, p[1] + 16, p[2] + 16 };
@@ -43,8 +38,6 @@ struct TwoBalls : Bench
     const Field field(volume.Image, SurfaceOptions(), this->Threads);
     return FindRemainingContacts(this->State, field, this->Threads);
   }
-
-  int Second; ///< first vertex of the second ball
 };
 }
 
