@@ -85,7 +85,7 @@ bool AreLevels(const std::vector<vtkImageData*>& images)
 [[noreturn]] void ThrowInvalidType(vtkDataObject* data)
 {
   const bool isField = !data->IsA("vtkPolyData") && !data->IsA("vtkTable");
-  ThrowInvalidArgument("the data are a ", data->GetClassName(), ", not an image (vtkImageData). ",
+  ThrowInvalidArgument("the input is a ", data->GetClassName(), ", not an image (vtkImageData). ",
     isField ? "Apply Resample To Image (vtkResampleToImage) first." : "Connect an image.");
 }
 

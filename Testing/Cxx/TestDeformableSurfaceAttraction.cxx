@@ -118,7 +118,7 @@ TEST_F(DeformableSurfaceAttraction, ReportsAMissingEdgeMap)
   this->Filter->SetEdgeAttractionWeight(1.0);
   this->ExpectError({ "Edge Attraction Weight", "SetInputArrayToProcess(1" });
   this->Filter->SetInputArrayToProcess(1, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Edges");
-  this->ExpectError({ "Input port 0", "edges", "'Edges'" });
+  this->ExpectError({ "Input port 0, edge map", "'Edges'" });
   this->Filter->SetEdgeAttractionWeight(0.0);
   this->Filter->Update();
   EXPECT_GT(this->Filter->GetOutput()->GetNumberOfPoints(), 100);

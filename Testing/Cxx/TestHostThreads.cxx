@@ -88,7 +88,7 @@ TEST(HostThreads, AreIndependentOfTheVtkBackend)
     EXPECT_EQ(ThreadsAtWork(0), static_cast<std::size_t>(all));
     const Variable most("VTK_SMP_MAX_THREADS", "1");
     EXPECT_EQ(ThreadsAtWork(0), 1u);
-    EXPECT_EQ(ThreadsAtWork(2), 2u) << "it is asked for";
+    EXPECT_EQ(ThreadsAtWork(2), 2u) << "an explicit number takes precedence";
     EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "VTK is left as it is";
   }
   vtkSMPTools::SetBackend(host.c_str());

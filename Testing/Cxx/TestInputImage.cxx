@@ -96,7 +96,7 @@ TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
       const std::string error = ErrorOf(filter, grid);
       const char* type =
         grid->IsA("vtkMultiBlockDataSet") ? "vtkUnstructuredGrid" : grid->GetClassName();
-      EXPECT_TRUE(Has(error, std::string("Input port 0: it is a ") + type));
+      EXPECT_TRUE(Has(error, std::string("Input port 0: the input is a ") + type));
       EXPECT_TRUE(Has(error, "Resample To Image"));
     }
   }

@@ -148,7 +148,7 @@ TEST(LabelsToSurfaces, MeshesSelectedLabels)
   filter->ClearLabels();
   filter->AddLabel(0);
   filter->Update();
-  ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0" })) << "the background, asked for";
+  ASSERT_EQ(BlockNames(filter->GetOutput()), (Names{ "Label 0" })) << "the background, on request";
   EXPECT_EQ(FieldOf(BlockOf(filter, 0), "NumberOfComponents"), 2.) << "a block with a cavity";
   filter->ClearLabels();
   filter->SetBackgroundLabel(3);

@@ -209,9 +209,9 @@ TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
 
 TEST_F(LabelsToSurfacesErrors, NamesLabelsRemovedByKeepComponents)
 {
-  const auto speck = [](int i, int j, int k)
+  const auto smallPart = [](int i, int j, int k)
   { return i == 30 && j == 3 && k == 3 ? 9. : TwoBalls(i, j, k); };
-  this->Filter->SetInputData(LabelImageOf(34, 28, 28, speck));
+  this->Filter->SetInputData(LabelImageOf(34, 28, 28, smallPart));
   this->Filter->SetKeepComponents(3);
   this->Filter->SetMinimumComponentVolume(2.);
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
@@ -225,5 +225,5 @@ TEST_F(LabelsToSurfacesErrors, NamesLabelsRemovedByKeepComponents)
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
   EXPECT_TRUE(Has(this->MissedLabels(), "These labels have no surface: Label 9"));
   EXPECT_TRUE(Has(this->MissedLabels(), "removed by Keep Components"));
-  EXPECT_EQ(warnings.Get(), "") << "a speck beside balls is no warning";
+  EXPECT_EQ(warnings.Get(), "") << "no warning for a small part beside balls";
 }

@@ -75,7 +75,7 @@ protected:
 TEST_P(FilterLocale, SettingsOutOfRange)
 {
   this->Filter->SetIsoValue(1234.5);
-  this->ExpectError("Iso Value is 1234.5, outside the range of the voxels, 0 to 100");
+  this->ExpectError("Iso Value is 1234.5, outside the range of the voxels");
   this->Filter->SetIsoValue(50.0);
   this->Filter->SetSamplingRatio(0.25);
   this->ExpectError("Sampling Ratio is 0.25, it must lie in [0.692819, 1]");
@@ -92,7 +92,7 @@ TEST_P(FilterLocale, PositionsOutsideImage)
   this->ExpectError(
     "Seed 0 lies outside the image: 1234.5 voxel distances along axis 2, the image has 40");
   this->Filter->SetAttractingPointsData(seeds);
-  this->ExpectError("point 0 (20, 20, 1234.5) lies outside the image");
+  this->ExpectError("point 0 (20, 20, 1234.5) is outside the image");
 }
 
 TEST_P(FilterLocale, Progress)

@@ -174,7 +174,7 @@ class LabelsTest(unittest.TestCase):
         self.assertEqual(merged[3].report["Label"], [3, 7])
 
     def test_invalid_arguments_raise(self):
-        with self.assertRaisesRegex(arrays.FilterError, "has no label 5; it has 0, 3, 7"):
+        with self.assertRaisesRegex(arrays.FilterError, "has no label 5. Select from 0, 3, 7"):
             volumic.labels(two_balls(), [5])
         with self.assertRaisesRegex(TypeError, "mean Smoothing"):
             volumic.labels(two_balls(), Smooting=1)

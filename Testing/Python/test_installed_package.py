@@ -167,7 +167,7 @@ class SurfaceTest(unittest.TestCase):
         self.assertEqual(self.errors, [])
         self.surface.AddSeedPosition(-50, 0, 0)
         self.surface.Update()
-        self.assertIn("Seed Positions: point 1 (-50, 0, 0) lies outside", self.errors[0])
+        self.assertIn("Seed Positions: point 1 (-50, 0, 0) is outside", self.errors[0])
 
     def test_error_code_is_reset_by_each_run(self):
         for iso, code, blocks in ((self.ISO, 0, 3), (1000, vtkErrorCode.UserError, 0),

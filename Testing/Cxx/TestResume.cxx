@@ -76,7 +76,7 @@ TEST_F(GoingOn, IsBitIdenticalToANewRun)
     for (const int finest : { 1, 0 })
     {
       filter->SetFinestLevel(finest);
-      EXPECT_FALSE(Reruns(filter, finest)) << "goes on from level " << finest + 1;
+      EXPECT_FALSE(Reruns(filter, finest)) << "resumes from level " << finest + 1;
       ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
     }
   }
@@ -204,7 +204,7 @@ TEST_F(GoingOn, PreviewEndsAtALevelWithFewVoxels)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
   filter->SetFinestLevel(2);
   EXPECT_TRUE(ShowsAtOnce(filter));
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than asked for";
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than requested";
 }
 
 TEST_F(GoingOn, KeepsNoOtherComponentsWithoutAWindow)
