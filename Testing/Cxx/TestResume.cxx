@@ -55,7 +55,7 @@ bool ShowsAtOnce(vtkAlgorithm* filter)
   return listener.Texts.size() <= 1;
 }
 
-class GoingOn : public ::testing::Test
+class Resume : public ::testing::Test
 {
 protected:
   const vtkSmartPointer<vtkImageData> Image = GoingOnScene();
@@ -63,7 +63,7 @@ protected:
 };
 }
 
-TEST_F(GoingOn, IsBitIdenticalToANewRun)
+TEST_F(Resume, IsBitIdenticalToANewRun)
 {
   std::vector<Choice> choices = ChoicesOfRuns();
   choices.push_back([](vtkDeformableSurface* filter)
@@ -82,7 +82,7 @@ TEST_F(GoingOn, IsBitIdenticalToANewRun)
   }
 }
 
-TEST_F(GoingOn, OutputsConvergedLevelsAtOnce)
+TEST_F(Resume, OutputsConvergedLevelsAtOnce)
 {
   this->Filter->SetSnapshotInterval(10);
   const Choice same = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(10); };
@@ -95,7 +95,7 @@ TEST_F(GoingOn, OutputsConvergedLevelsAtOnce)
   }
 }
 
-TEST_F(GoingOn, SelectsComponentsWithoutARunInAWindow)
+TEST_F(Resume, SelectsComponentsWithoutARunInAWindow)
 {
   const Choice choices[] = { [](vtkDeformableSurface* f)
     { f->SetKeepComponentsToLargestComponent(); },
@@ -145,7 +145,7 @@ TEST_F(GoingOn, SelectsComponentsWithoutARunInAWindow)
   EXPECT_FALSE(largest->NewLeftOutComponents()) << "nobody watches";
 }
 
-TEST_F(GoingOn, ResumesAtTheLastConvergedLevelAfterAStop)
+TEST_F(Resume, ResumesAtTheLastConvergedLevelAfterAStop)
 {
   const Choice choose = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(7); };
   struct Case
@@ -179,7 +179,7 @@ TEST_F(GoingOn, ResumesAtTheLastConvergedLevelAfterAStop)
   }
 }
 
-TEST_F(GoingOn, IgnoresALateRequestToStop)
+TEST_F(Resume, IgnoresALateRequestToStop)
 {
   {
     const StopAtText stop(this->Filter, "Level 0, iteration", 2);
@@ -190,7 +190,7 @@ TEST_F(GoingOn, IgnoresALateRequestToStop)
   EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
 }
 
-TEST_F(GoingOn, PreviewEndsAtALevelWithFewVoxels)
+TEST_F(Resume, PreviewEndsAtALevelWithFewVoxels)
 {
   const auto large = BallImage(180, 160, 128);
   const auto filter =
@@ -207,7 +207,7 @@ TEST_F(GoingOn, PreviewEndsAtALevelWithFewVoxels)
   EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 2) << "not finer than requested";
 }
 
-TEST_F(GoingOn, KeepsNoOtherComponentsWithoutAWindow)
+TEST_F(Resume, KeepsNoOtherComponentsWithoutAWindow)
 {
   this->Filter->SetKeepComponentsToAllComponents();
   this->Filter->Modified();
@@ -216,7 +216,7 @@ TEST_F(GoingOn, KeepsNoOtherComponentsWithoutAWindow)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, RestartsAfterAnyOtherChange)
+TEST_F(Resume, RestartsAfterAnyOtherChange)
 {
   const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
     [&] { this->Filter->SetSnapshotInterval(5); }, [&] { this->Filter->Modified(); },
@@ -242,7 +242,7 @@ TEST_F(GoingOn, RestartsAfterAnyOtherChange)
   }
 }
 
-TEST_F(GoingOn, RestartsIfABlockOfThePyramidChanges)
+TEST_F(Resume, RestartsIfABlockOfThePyramidChanges)
 {
   const auto pyramid = PyramidOf(this->Image);
   vtkNew<vtkMultiBlockDataSet> blocks;
@@ -257,7 +257,7 @@ TEST_F(GoingOn, RestartsIfABlockOfThePyramidChanges)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, IsIndependentOfResume)
+TEST_F(Resume, IsIndependentOfResume)
 {
   this->Filter->SetFinestLevel(1);
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
@@ -272,7 +272,7 @@ TEST_F(GoingOn, IsIndependentOfResume)
   ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
 }
 
-TEST_F(GoingOn, KeepsNothingAfterAnError)
+TEST_F(Resume, KeepsNothingAfterAnError)
 {
   this->Filter->SetFinestLevel(2);
   this->Filter->Update();
@@ -283,7 +283,7 @@ TEST_F(GoingOn, KeepsNothingAfterAnError)
   ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
 }
 
-TEST_F(GoingOn, KeepsNothingIfDataAreReleased)
+TEST_F(Resume, KeepsNothingIfDataAreReleased)
 {
   this->Filter->ReleaseDataFlagOn();
   this->Filter->SetFinestLevel(2);
@@ -292,7 +292,7 @@ TEST_F(GoingOn, KeepsNothingIfDataAreReleased)
   EXPECT_TRUE(Reruns(this->Filter, 1));
 }
 
-TEST_F(GoingOn, StartsAtAReleasedLevel)
+TEST_F(Resume, StartsAtAReleasedLevel)
 {
   // With a thicker rod a run to level 2 starts there, and other runs start at level 1.
   FillBox(this->Image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
@@ -311,7 +311,7 @@ TEST_F(GoingOn, StartsAtAReleasedLevel)
   }
 }
 
-TEST_F(GoingOn, RestartsAfterACancelledRun)
+TEST_F(Resume, RestartsAfterACancelledRun)
 {
   ProgressListener listener(this->Filter);
   listener.StopAt = 0.7;
