@@ -8,7 +8,7 @@ using namespace volumic;
 namespace
 {
 /** A ball, a thin rod and a bubble: a part is missed, recovered and merged. */
-vtkSmartPointer<vtkImageData> GoingOnScene(int size = 64)
+vtkSmartPointer<vtkImageData> ResumeScene(int size = 64)
 {
   const auto image = BallImage(size, size, size, 0.3);
   FillBox(image, { 5, 5, 6 }, { 8, 8, size - 6 });
@@ -58,7 +58,7 @@ bool ShowsAtOnce(vtkAlgorithm* filter)
 class Resume : public ::testing::Test
 {
 protected:
-  const vtkSmartPointer<vtkImageData> Image = GoingOnScene();
+  const vtkSmartPointer<vtkImageData> Image = ResumeScene();
   const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(this->Image);
 };
 }
@@ -231,7 +231,7 @@ TEST_F(Resume, RestartsAfterAnyOtherChange)
       Voxels(this->Image)->SetComponent(6, 0, 20.0);
       this->Image->Modified();
     },
-    [&] { this->Filter->SetInputData(GoingOnScene(56)); } };
+    [&] { this->Filter->SetInputData(ResumeScene(56)); } };
   for (const auto& change : changes)
   {
     this->Filter->SetFinestLevel(2);
