@@ -6,8 +6,8 @@
 namespace volumic
 {
 /**
- * Add the folder of the package volumic to the path of ParaView's Python. The plugin calls it when it is
- * loaded, in the client and in servers.
+ * Add the folder of the package volumic to the path of ParaView's Python. The plugin calls it when
+ * it is loaded, in the client and in servers.
  */
 void AddPythonPath();
 }

@@ -11,8 +11,8 @@ class vtkPVDataInformation;
 namespace volumic
 {
 /**
- * Create a filter of the group internal_filters at the location of its producer, with the producer as
- * input. Return null if there is no filter of that name.
+ * Create a filter of the group internal_filters at the location of its producer, with the producer
+ * as input. Return null if there is no filter of that name.
  */
 vtkSmartPointer<vtkSMSourceProxy> NewHelper(
   const char* name, vtkSMSourceProxy* producer, unsigned int port);

@@ -4,8 +4,8 @@
  * @class   vtkSMLabelsDomain
  * @brief   the labels of the input, for a property that lists some of them
  *
- * All values are allowed, and none is preset. GetLabels() counts the labels on the server that has the
- * data. It counts them again if the input or its array has changed. The domain invokes
+ * All values are allowed, and none is preset. GetLabels() counts the labels on the server that has
+ * the data. It counts them again if the input or its array has changed. The domain invokes
  * DomainModifiedEvent before that.
  *
  * Required properties: Input and ArraySelection.
@@ -54,8 +54,8 @@ public:
    * (internal_filters, LabelList).
    * @param array elements of SetInputArrayToProcess; empty: the active scalars
    */
-  static volumic::LabelRows FetchLabels(vtkSMSourceProxy* producer, unsigned int port,
-    const std::array<std::string, 5>& array = {});
+  static volumic::LabelRows FetchLabels(
+    vtkSMSourceProxy* producer, unsigned int port, const std::array<std::string, 5>& array = {});
 
   /** Return the labels of the input as it is now, before Apply. */
   const volumic::LabelRows& GetLabels();

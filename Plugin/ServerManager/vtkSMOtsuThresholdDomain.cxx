@@ -200,9 +200,8 @@ int vtkSMOtsuThresholdDomain::SetDefaultValues(vtkSMProperty* property, bool use
 //------------------------------------------------------------------------------
 void vtkSMOtsuThresholdDomain::UpdateRange(const Choice& choice)
 {
-  vtkPVDataInformation* data = choice.HasArray()
-    ? choice.Producer->GetDataInformation(choice.Port)
-    : nullptr;
+  vtkPVDataInformation* data =
+    choice.HasArray() ? choice.Producer->GetDataInformation(choice.Port) : nullptr;
   const int association = std::atoi(choice.Array[3].c_str());
   vtkPVArrayInformation* array = data ? ArrayOf(data, choice.Array) : nullptr;
   const int count = array ? array->GetNumberOfComponents() : 1;
@@ -214,8 +213,8 @@ void vtkSMOtsuThresholdDomain::UpdateRange(const Choice& choice)
   }
   else if (choice.HasArray())
   {
-    this->Superclass::Update(choice.Array[4].c_str(), association, choice.Producer,
-      static_cast<int>(choice.Port), -1);
+    this->Superclass::Update(
+      choice.Array[4].c_str(), association, choice.Producer, static_cast<int>(choice.Port), -1);
   }
 }
 

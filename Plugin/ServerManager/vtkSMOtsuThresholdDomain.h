@@ -5,13 +5,13 @@
  * @brief   the range of an array, with Otsu's threshold as the default value
  *
  * A property of one number with this domain is preset from the data when its proxy is created, and
- * when the user presses its reset button. While the property has its preset value, it is preset again
- * if the input, array or component changes. Values set by the user remain. The domain updates data
- * that were never updated, as in a script.
+ * when the user presses its reset button. While the property has its preset value, it is preset
+ * again if the input, array or component changes. Values set by the user remain. The domain updates
+ * data that were never updated, as in a script.
  *
- * The helper proxy (internal_filters, OtsuThreshold) computes the threshold on the server that has the
- * data. If there is no threshold, for example if all voxels are equal, the default is the middle of the
- * range, as of vtkSMArrayRangeDomain.
+ * The helper proxy (internal_filters, OtsuThreshold) computes the threshold on the server that has
+ * the data. If there is no threshold, for example if all voxels are equal, the default is the
+ * middle of the range, as of vtkSMArrayRangeDomain.
  *
  * Required properties: Input, ArraySelection and ComponentSelection (-1: magnitude).
  */

@@ -25,7 +25,8 @@ vtkStandardNewMacro(vtkSMVolumicLabelsRepresentationProxy);
 
 namespace
 {
-/** The largest number of labels whose legend is shown automatically: more names are not readable. */
+/** The largest number of labels whose legend is shown automatically: more names are not readable.
+ */
 constexpr std::size_t MaximumInLegend = 12;
 
 /** Add the filters Labels to Surfaces upstream of a proxy, itself included. */

@@ -4,16 +4,16 @@
  * @class   vtkSMVolumicLabelsRepresentationProxy
  * @brief   surfaces of labels, each in the colour of its label
  *
- * A new display is coloured by the cell array `Label` as soon as there are surfaces. The colour map has a
- * category per label, with the name and colour of the field data. The categories follow the data until
- * the user edits them. After that only categories of new labels are added.
+ * A new display is coloured by the cell array `Label` as soon as there are surfaces. The colour map
+ * has a category per label, with the name and colour of the field data. The categories follow the
+ * data until the user edits them. After that only categories of new labels are added.
  *
- * Displays of downstream filters, such as Clip, use this colour map if they are coloured by `Label`. A
- * display in the same view takes precedence. Displays with a separate colour map, or of the surfaces of
- * several label maps, do not change.
+ * Displays of downstream filters, such as Clip, use this colour map if they are coloured by
+ * `Label`. A display in the same view takes precedence. Displays with a separate colour map, or of
+ * the surfaces of several label maps, do not change.
  *
- * By default the legend is shown for up to twelve labels. It is shown or hidden again when the number of
- * labels crosses this limit.
+ * By default the legend is shown for up to twelve labels. It is shown or hidden again when the
+ * number of labels crosses this limit.
  */
 #ifndef vtkSMVolumicLabelsRepresentationProxy_h
 #define vtkSMVolumicLabelsRepresentationProxy_h

@@ -28,14 +28,21 @@ namespace
 {
 /** Colours of the largest components, by size. */
 constexpr std::array<std::array<double, 3>, 10> ComponentColors = { {
-  { 0.89, 0.85, 0.76 }, { 0.12, 0.47, 0.71 }, { 1.00, 0.50, 0.05 }, { 0.17, 0.63, 0.17 },
-  { 0.84, 0.15, 0.16 }, { 0.58, 0.40, 0.74 }, { 0.55, 0.34, 0.29 }, { 0.89, 0.47, 0.76 },
-  { 0.74, 0.74, 0.13 }, { 0.09, 0.75, 0.81 },
+  { 0.89, 0.85, 0.76 },
+  { 0.12, 0.47, 0.71 },
+  { 1.00, 0.50, 0.05 },
+  { 0.17, 0.63, 0.17 },
+  { 0.84, 0.15, 0.16 },
+  { 0.58, 0.40, 0.74 },
+  { 0.55, 0.34, 0.29 },
+  { 0.89, 0.47, 0.76 },
+  { 0.74, 0.74, 0.13 },
+  { 0.09, 0.75, 0.81 },
 } };
 
 /**
- * Gives access to a protected setter. The domain belongs to a subproxy of ParaView's display, which XML
- * cannot replace.
+ * Gives access to a protected setter. The domain belongs to a subproxy of ParaView's display, which
+ * XML cannot replace.
  */
 struct InputArrayDomain : vtkSMInputArrayDomain
 {
@@ -63,8 +70,8 @@ int vtkSMVolumicSurfaceRepresentationProxy::ReadXMLAttributes(
   const int succeeded = this->Superclass::ReadXMLAttributes(manager, element);
   vtkSMProxy* geometry = this->GetSubProxy("SurfaceRepresentation");
   vtkSMProperty* input = geometry ? geometry->GetProperty("Input") : nullptr;
-  auto* domain = vtkSMInputArrayDomain::SafeDownCast(
-    input ? input->GetDomain("input_array_any") : nullptr);
+  auto* domain =
+    vtkSMInputArrayDomain::SafeDownCast(input ? input->GetDomain("input_array_any") : nullptr);
   if (domain)
   {
     InputArrayDomain::LeaveOutFieldData(domain);
@@ -119,15 +126,15 @@ vtkPVDataInformation* vtkSMVolumicSurfaceRepresentationProxy::GetInputInformatio
   const std::string& block)
 {
   vtkSMPropertyHelper input(this, "Input", true);
-  auto* source = vtkSMSourceProxy::SafeDownCast(
-    input.GetNumberOfElements() > 0 ? input.GetAsProxy() : nullptr);
+  auto* source =
+    vtkSMSourceProxy::SafeDownCast(input.GetNumberOfElements() > 0 ? input.GetAsProxy() : nullptr);
   if (!source)
   {
     return nullptr;
   }
-  return block.empty() ? source->GetDataInformation(input.GetOutputPort())
-                       : source->GetSubsetDataInformation(
-                           input.GetOutputPort(), block.c_str(), "Hierarchy");
+  return block.empty()
+    ? source->GetDataInformation(input.GetOutputPort())
+    : source->GetSubsetDataInformation(input.GetOutputPort(), block.c_str(), "Hierarchy");
 }
 
 //------------------------------------------------------------------------------
@@ -143,8 +150,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptColors()
   }
   if (vtkPVDataInformation* data = this->GetInputInformation())
   {
-    this->AdaptColorsOf(
-      vtkSMPropertyHelper(this, "ColorArrayName").GetAsString(4), colors, data);
+    this->AdaptColorsOf(vtkSMPropertyHelper(this, "ColorArrayName").GetAsString(4), colors, data);
   }
 }
 
@@ -169,8 +175,8 @@ void vtkSMVolumicSurfaceRepresentationProxy::AdaptComponentColors(
   }
   constexpr int others = static_cast<int>(ComponentColors.size());
   const int last = std::clamp(static_cast<int>(component->GetComponentRange(0)[1]), 0, others);
-  const bool isOurs = static_cast<int>(volumic::CategoriesOf(colors).size()) ==
-    this->LastComponent + 1;
+  const bool isOurs =
+    static_cast<int>(volumic::CategoriesOf(colors).size()) == this->LastComponent + 1;
   if (last == this->LastComponent || (volumic::IsInitialized(colors) && !isOurs))
   {
     return;
@@ -223,8 +229,7 @@ void vtkSMVolumicSurfaceRepresentationProxy::ChooseBlock()
   vtkSMPropertyHelper selectors(this, "BlockSelectors", true);
   // Keep blocks that the user has chosen.
   const std::string given = this->ChosenBlock.empty() ? "/" : this->ChosenBlock;
-  if (!this->IsNew || selectors.GetNumberOfElements() != 1 ||
-    selectors.GetAsString(0) != given)
+  if (!this->IsNew || selectors.GetNumberOfElements() != 1 || selectors.GetAsString(0) != given)
   {
     return;
   }

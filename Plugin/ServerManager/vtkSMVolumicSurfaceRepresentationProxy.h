@@ -6,10 +6,10 @@
  *
  * Differences from ParaView's display of geometry:
  * - Only point and cell arrays are offered for colouring, not the field data of a surface.
- * - Arrays have separate colour maps. The map of `Component` has a colour for each of the ten largest
- *   components, and grey for the others. It follows new data until the user edits it.
- * - With the hint <ShownBlock position="first"/> or "last", a new display shows the first or last block
- *   that is not empty, until the user chooses others.
+ * - Arrays have separate colour maps. The map of `Component` has a colour for each of the ten
+ * largest components, and grey for the others. It follows new data until the user edits it.
+ * - With the hint <ShownBlock position="first"/> or "last", a new display shows the first or last
+ * block that is not empty, until the user chooses others.
  */
 #ifndef vtkSMVolumicSurfaceRepresentationProxy_h
 #define vtkSMVolumicSurfaceRepresentationProxy_h

@@ -4,9 +4,9 @@
  * @class   vtkVolumicLabelList
  * @brief   the labels of a label map or of surfaces, as strings for a client
  *
- * The input is a label map, or the output of vtkLabelsToSurfaces, whose labels are in the field data of
- * the blocks. The panel runs this filter before Apply. Therefore an invalid input is not an error here:
- * GetProblem() returns the message.
+ * The input is a label map, or the output of vtkLabelsToSurfaces, whose labels are in the field
+ * data of the blocks. The panel runs this filter before Apply. Therefore an invalid input is not an
+ * error here: GetProblem() returns the message.
  */
 #ifndef vtkVolumicLabelList_h
 #define vtkVolumicLabelList_h

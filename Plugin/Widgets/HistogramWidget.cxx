@@ -40,8 +40,7 @@ std::vector<double> BarsOf(const std::vector<double>& counts, int most)
 }
 
 //------------------------------------------------------------------------------
-HistogramWidget::HistogramWidget(QWidget* parent)
-  : QWidget(parent)
+HistogramWidget::HistogramWidget(QWidget* parent) : QWidget(parent)
 {
   this->setObjectName("Histogram");
   this->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -114,8 +113,8 @@ void HistogramWidget::paintEvent(QPaintEvent*)
   {
     const int left = bar * this->width() / count;
     const int right = (bar + 1) * this->width() / count;
-    const auto high = static_cast<int>(
-      std::lround(bars[static_cast<std::size_t>(bar)] / most * (below - 4)));
+    const auto high =
+      static_cast<int>(std::lround(bars[static_cast<std::size_t>(bar)] / most * (below - 4)));
     painter.fillRect(left, below - high, right - left, high, colors.color(QPalette::Mid));
   }
   if (!std::isnan(this->Threshold))

@@ -12,8 +12,8 @@
 namespace volumic
 {
 /**
- * Histogram of voxels with a line that the mouse drags. A dotted line marks Otsu's threshold. Heights are
- * logarithmic, because most voxels are background.
+ * Histogram of voxels with a line that the mouse drags. A dotted line marks Otsu's threshold.
+ * Heights are logarithmic, because most voxels are background.
  */
 class HistogramWidget : public QWidget
 {

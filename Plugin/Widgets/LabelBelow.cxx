@@ -12,9 +12,8 @@ namespace
 /** Align the label on the left of a property's widget with its first row. */
 void alignLabel(QWidget* widget, int heightOfRow)
 {
-  auto* grid = widget->parentWidget()
-    ? qobject_cast<QGridLayout*>(widget->parentWidget()->layout())
-    : nullptr;
+  auto* grid =
+    widget->parentWidget() ? qobject_cast<QGridLayout*>(widget->parentWidget()->layout()) : nullptr;
   const int index = grid ? grid->indexOf(widget) : -1;
   int row = 0;
   int column = 0;
@@ -56,8 +55,7 @@ QLabel* AddLabelBelow(QWidget* widget, const char* name)
   column->addLayout(row);
   column->addWidget(label);
   // The panel adds the widget to its layout after this call.
-  QTimer::singleShot(
-    0, widget, [widget, row] { alignLabel(widget, row->sizeHint().height()); });
+  QTimer::singleShot(0, widget, [widget, row] { alignLabel(widget, row->sizeHint().height()); });
   return label;
 }
 }

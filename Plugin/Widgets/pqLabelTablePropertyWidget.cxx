@@ -133,8 +133,7 @@ struct pqLabelTablePropertyWidget::Internals
 //------------------------------------------------------------------------------
 pqLabelTablePropertyWidget::pqLabelTablePropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
-  : Superclass(proxy, parent)
-  , Parts(new Internals)
+  : Superclass(proxy, parent), Parts(new Internals)
 {
   this->setProperty(property);
   this->setShowLabel(false);
@@ -207,8 +206,7 @@ void pqLabelTablePropertyWidget::buildPanel()
   this->connect(parts.Filter, SIGNAL(textChanged(const QString&)), SLOT(search(const QString&)));
   this->connect(parts.Table->selectionModel(),
     SIGNAL(selectionChanged(const QItemSelection&, const QItemSelection&)), SLOT(showNote()));
-  this->connect(
-    &parts.Rows, SIGNAL(itemChanged(QStandardItem*)), SLOT(readRow(QStandardItem*)));
+  this->connect(&parts.Rows, SIGNAL(itemChanged(QStandardItem*)), SLOT(readRow(QStandardItem*)));
   this->connect(parts.All, SIGNAL(clicked()), SLOT(checkAll()));
   this->connect(parts.OnlyThese, SIGNAL(clicked()), SLOT(checkOnlyThese()));
 }

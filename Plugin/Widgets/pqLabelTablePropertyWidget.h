@@ -13,11 +13,11 @@
 class QStandardItem;
 
 /**
- * A table of the labels of the input, for a property that lists some of them. An empty list means all
- * labels except BackgroundLabel. A row has a box, the colour, the name, the value and the number of
- * voxels. A click on a title sorts. Search hides the rows that do not contain its text. All checks the
- * visible rows, Only These unchecks all others. The box of one of several selected rows sets the boxes of
- * all of them. At least one row stays checked.
+ * A table of the labels of the input, for a property that lists some of them. An empty list means
+ * all labels except BackgroundLabel. A row has a box, the colour, the name, the value and the
+ * number of voxels. A click on a title sorts. Search hides the rows that do not contain its text.
+ * All checks the visible rows, Only These unchecks all others. The box of one of several selected
+ * rows sets the boxes of all of them. At least one row stays checked.
  *
  *   <IntVectorProperty panel_widget="LabelTable" ...>
  *     <LabelsDomain .../>
@@ -29,8 +29,7 @@ class pqLabelTablePropertyWidget : public pqPropertyWidget
   using Superclass = pqPropertyWidget;
 
 public:
-  pqLabelTablePropertyWidget(
-    vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  pqLabelTablePropertyWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqLabelTablePropertyWidget() override;
 
   QList<QVariant> labels() const;

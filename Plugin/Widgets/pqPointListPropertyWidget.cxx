@@ -69,8 +69,8 @@ vtkCurveRepresentation* HandlesOf(vtkSMProxy* widget)
 }
 
 /**
- * Find the point under the mouse on surfaces and slices, by the depth buffer. With remote rendering use
- * ParaView's picking, on surfaces only.
+ * Find the point under the mouse on surfaces and slices, by the depth buffer. With remote rendering
+ * use ParaView's picking, on surfaces only.
  */
 bool PickIn(vtkSMRenderViewProxy* view, double position[3])
 {
@@ -109,8 +109,8 @@ struct pqPointListPropertyWidget::Internals
 pqPointListPropertyWidget::pqPointListPropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
   : Superclass("representations", "PolyLineWidgetRepresentation", proxy,
-      vtkNew<vtkSMPropertyGroup>(), parent)
-  , Parts(new Internals)
+      vtkNew<vtkSMPropertyGroup>(), parent),
+    Parts(new Internals)
 {
   this->setProperty(property);
   this->setShowLabel(false);
@@ -204,8 +204,8 @@ void pqPointListPropertyWidget::buildPanel()
 
   this->connect(add, SIGNAL(clicked()), SLOT(addPointInTheCentre()));
   this->connect(parts.Remove, SIGNAL(clicked()), SLOT(removeSelectedPoints()));
-  this->connect(parts.Table, SIGNAL(itemChanged(QTableWidgetItem*)),
-    SLOT(readCell(QTableWidgetItem*)));
+  this->connect(
+    parts.Table, SIGNAL(itemChanged(QTableWidgetItem*)), SLOT(readCell(QTableWidgetItem*)));
   this->connect(parts.Show, SIGNAL(toggled(bool)), SLOT(setWidgetVisible(bool)));
   this->fillTable();
 }
@@ -366,15 +366,15 @@ void pqPointListPropertyWidget::updateRow()
   Internals& parts = *this->Parts;
   const bool selects = this->selectsComponents();
   parts.Title->setText(selects ? tr("Points") : tr(this->property()->GetXMLLabel()));
-  parts.Note->setText((selects && parts.Coordinates.empty()
-                          ? tr("<b>No points: all components are kept.</b> ")
-                          : QString()) +
+  parts.Note->setText(
+    (selects && parts.Coordinates.empty() ? tr("<b>No points: all components are kept.</b> ")
+                                          : QString()) +
     tr("<b>P</b> adds the point under the mouse, on a surface or a slice, while points are shown. "
        "Drag a point to move it."));
-  auto* grid = qobject_cast<QGridLayout*>(
-    this->parentWidget() ? this->parentWidget()->layout() : nullptr);
-  QWidget* replaced = selects ? this->parentWidget()->findChild<QWidget*>("MinimumComponentVolume")
-                           : nullptr;
+  auto* grid =
+    qobject_cast<QGridLayout*>(this->parentWidget() ? this->parentWidget()->layout() : nullptr);
+  QWidget* replaced =
+    selects ? this->parentWidget()->findChild<QWidget*>("MinimumComponentVolume") : nullptr;
   if (!grid || grid->indexOf(this) < 0)
   {
     return;

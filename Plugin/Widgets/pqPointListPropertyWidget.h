@@ -13,9 +13,9 @@
 class QTableWidgetItem;
 
 /**
- * A list of points for a repeatable property with three numbers per point: a table, and in the view the
- * handles of ParaView's poly line without the line. `P` adds the point under the mouse, on a surface or a
- * slice. Handles can be dragged.
+ * A list of points for a repeatable property with three numbers per point: a table, and in the view
+ * the handles of ParaView's poly line without the line. `P` adds the point under the mouse, on a
+ * surface or a slice. Handles can be dragged.
  *
  *   <DoubleVectorProperty panel_widget="PointList" ...>
  *     <Hints>
@@ -33,8 +33,7 @@ class pqPointListPropertyWidget : public pqInteractivePropertyWidget
   using Superclass = pqInteractivePropertyWidget;
 
 public:
-  pqPointListPropertyWidget(
-    vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
+  pqPointListPropertyWidget(vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent = nullptr);
   ~pqPointListPropertyWidget() override;
 
   QList<QVariant> coordinates() const;

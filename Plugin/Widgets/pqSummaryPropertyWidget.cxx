@@ -88,9 +88,10 @@ QString SummaryOf(vtkPVDataInformation* data, const QString& unit)
   }
   const bool isUnfinished = !why.isEmpty();
   const QString level = QString::number(NumberOf(data, "Level"));
-  const QString head = isUnfinished ? QObject::tr("<b>Unfinished</b> (%1 at level %2)").arg(why, level)
-                                    : QObject::tr("<b>Surface</b> of level %1, started at level %2")
-                                        .arg(level, Count(NumberOf(data, "StartLevel")));
+  const QString head = isUnfinished
+    ? QObject::tr("<b>Unfinished</b> (%1 at level %2)").arg(why, level)
+    : QObject::tr("<b>Surface</b> of level %1, started at level %2")
+        .arg(level, Count(NumberOf(data, "StartLevel")));
   if (data->GetNumberOfCells() == 0)
   {
     return isUnfinished ? QObject::tr("<b>Unfinished</b> (%1): no surface yet").arg(why)
@@ -111,8 +112,7 @@ QString SummaryOf(vtkPVDataInformation* data, const QString& unit)
 //------------------------------------------------------------------------------
 pqSummaryPropertyWidget::pqSummaryPropertyWidget(
   vtkSMProxy* proxy, vtkSMProperty* property, QWidget* parent)
-  : pqPropertyWidget(proxy, parent)
-  , Label(new QLabel(this))
+  : pqPropertyWidget(proxy, parent), Label(new QLabel(this))
 {
   this->setShowLabel(false);
   this->setProperty(property);

@@ -8,8 +8,8 @@
 class QLabel;
 
 /**
- * Shows the field data of the first output of a vtkDeformableSurface or vtkLabelsToSurfaces. The unit of
- * lengths is the field data LengthUnit of the input, if it has this array.
+ * Shows the field data of the first output of a vtkDeformableSurface or vtkLabelsToSurfaces. The
+ * unit of lengths is the field data LengthUnit of the input, if it has this array.
  *
  *   <Property name="Result" label="Result" panel_widget="Summary"/>
  */

@@ -33,9 +33,8 @@ bool areHounsfieldUnits(double low, double high)
 
 //------------------------------------------------------------------------------
 pqValueRangeDecorator::pqValueRangeDecorator(vtkPVXMLElement* xml, pqPropertyWidget* parent)
-  : pqPropertyWidgetDecorator(xml, parent)
-  , Label(volumic::AddLabelBelow(parent, "ValueRange"))
-  , Histogram(new volumic::HistogramWidget(parent))
+  : pqPropertyWidgetDecorator(xml, parent), Label(volumic::AddLabelBelow(parent, "ValueRange")),
+    Histogram(new volumic::HistogramWidget(parent))
 {
   // Beside the number, the slider is too short at the initial width of the panel.
   auto* slider = parent->findChild<QSlider*>();

@@ -13,10 +13,10 @@ class HistogramWidget;
 
 /**
  * Shows the range of a property below its widget: "Value Range: [0, 1300]". If it is a range of
- * Hounsfield units, links set the values of bone and skin. Otherwise a link sets the second threshold of
- * the domain (vtkSMOtsuThresholdDomain), if there is one. A note says that all time steps have one value.
- * The slider is below the histogram of the domain, which shows the range to Upper Value if the proxy uses
- * it.
+ * Hounsfield units, links set the values of bone and skin. Otherwise a link sets the second
+ * threshold of the domain (vtkSMOtsuThresholdDomain), if there is one. A note says that all time
+ * steps have one value. The slider is below the histogram of the domain, which shows the range to
+ * Upper Value if the proxy uses it.
  *
  *   <PropertyWidgetDecorator type="ValueRange"/>
  */

@@ -68,8 +68,8 @@ QPoint positionOf(const QMouseEvent* event)
 }
 
 /**
- * Return whether the event is input of the user. Mouse moves and button releases are not, because they
- * start nothing.
+ * Return whether the event is input of the user. Mouse moves and button releases are not, because
+ * they start nothing.
  */
 bool isInput(const QEvent* event)
 {
@@ -110,8 +110,8 @@ bool isQuit(const QObject* object, QEvent* event)
 }
 
 /**
- * Return whether the event is of a timer of ParaView: they apply, render and check for new data. If an
- * event is filtered out, the timer repeats it.
+ * Return whether the event is of a timer of ParaView: they apply, render and check for new data. If
+ * an event is filtered out, the timer repeats it.
  */
 bool isTimerOfParaView(const QObject* object, const QEvent* event)
 {
@@ -127,8 +127,7 @@ pqAbortButtonBehavior::~pqAbortButtonBehavior() = default;
 void pqAbortButtonBehavior::startup()
 {
   pqServerManagerModel* model = pqApplicationCore::instance()->getServerManagerModel();
-  this->connect(
-    model, SIGNAL(sourceAdded(pqPipelineSource*)), SLOT(watch(pqPipelineSource*)));
+  this->connect(model, SIGNAL(sourceAdded(pqPipelineSource*)), SLOT(watch(pqPipelineSource*)));
   for (pqPipelineSource* source : model->findItems<pqPipelineSource*>())
   {
     this->watch(source);

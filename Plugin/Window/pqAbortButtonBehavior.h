@@ -16,15 +16,16 @@ class vtkAlgorithm;
 class vtkObject;
 
 /**
- * Lets the abort button in the status bar stop a run of Volumic's filters, with the built-in server.
+ * Lets the abort button in the status bar stop a run of Volumic's filters, with the built-in
+ * server.
  *
- * During a run only this object updates the progress bar and processes events. The pause between two
- * updates is ten times the duration of the last one. ParaView 6.1 enables the button, too, but rejects
- * mouse presses. Earlier versions do not enable it and process no events.
+ * During a run only this object updates the progress bar and processes events. The pause between
+ * two updates is ten times the duration of the last one. ParaView 6.1 enables the button, too, but
+ * rejects mouse presses. Earlier versions do not enable it and process no events.
  *
- * During a run the window accepts only a press of the button, because shortcuts and timers could change
- * the executing pipeline. Quitting or closing the window stops the run; the window closes after it. Other
- * input shows a message in the status bar.
+ * During a run the window accepts only a press of the button, because shortcuts and timers could
+ * change the executing pipeline. Quitting or closing the window stops the run; the window closes
+ * after it. Other input shows a message in the status bar.
  */
 class pqAbortButtonBehavior : public QObject
 {
@@ -60,8 +61,8 @@ private:
 
   QPointer<QAbstractButton> Button;
   vtkWeakPointer<vtkAlgorithm> Running;
-  QElapsedTimer SinceUpdate; ///< time since the last update of the window
-  qint64 Pause = 0;          ///< until the next update, in milliseconds
+  QElapsedTimer SinceUpdate;     ///< time since the last update of the window
+  qint64 Pause = 0;              ///< until the next update, in milliseconds
   bool HasEnabledButton = false; ///< by this object
   bool IsUpdating = false;
   bool IsQuitting = false;

@@ -51,9 +51,8 @@ void pqLabelLegendBehavior::add(pqRepresentation* display)
   vtkSMProxy* of = vtkSMPropertyHelper(display->getProxy(), "Input", true).GetAsProxy();
   auto* filter =
     pqApplicationCore::instance()->getServerManagerModel()->findItem<pqPipelineFilter*>(of);
-  pqOutputPort* input = filter && !filter->getAllInputs().isEmpty()
-    ? filter->getAllInputs().first()
-    : nullptr;
+  pqOutputPort* input =
+    filter && !filter->getAllInputs().isEmpty() ? filter->getAllInputs().first() : nullptr;
   pqView* view = pqActiveObjects::instance().activeView();
   pqDataRepresentation* former = view && input && volumic::IsDownstreamOfSurface(input->getSource())
     ? input->getRepresentation(view)

@@ -11,8 +11,8 @@ class pqDataRepresentation;
 class pqRepresentation;
 
 /**
- * Hides the legend of a filter downstream of surfaces, such as Clip, if the surfaces have no legend. At
- * Apply ParaView shows the legend of each new display that is coloured by an array.
+ * Hides the legend of a filter downstream of surfaces, such as Clip, if the surfaces have no
+ * legend. At Apply ParaView shows the legend of each new display that is coloured by an array.
  */
 class pqLabelLegendBehavior : public QObject
 {

@@ -10,8 +10,8 @@
 #include <pqPipelineSource.h>
 
 /**
- * Keeps Apply active after a stopped run, and lets Apply resume the run. Not with Auto Apply, which would
- * resume at once.
+ * Keeps Apply active after a stopped run, and lets Apply resume the run. Not with Auto Apply, which
+ * would resume at once.
  */
 class pqUnfinishedBehavior : public QObject
 {

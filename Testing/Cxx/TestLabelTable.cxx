@@ -100,7 +100,8 @@ TEST(LabelHint, VolumeToSurfaceWarnsOnce)
     vtkNew<vtkVolumeToSurface> filter;
     filter->SetIsoValue(0.5);
     const std::string warnings = WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type));
-    EXPECT_TRUE(Has(warnings, "array 'Labels' looks like a label map: it has 3 different integers"));
+    EXPECT_TRUE(
+      Has(warnings, "array 'Labels' looks like a label map: it has 3 different integers"));
     EXPECT_TRUE(Has(warnings, "Labels to Surfaces"));
     EXPECT_EQ(WarningsOf(filter, LabelImageOf(34, 28, 28, TwoBalls, type)), "") << "once";
   }

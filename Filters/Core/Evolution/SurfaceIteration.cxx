@@ -36,7 +36,8 @@ const Dynamics::Relaxation& RelaxationOf(SurfaceIteration::Mode mode)
 
 SurfaceIteration::SurfaceIteration(SurfaceState& state, BlockPass& pass, const Field* evidence,
   bool topologyChanges, Executor& threads)
-  : State(state), Pass(pass), Threads(threads), Edits(state, evidence, topologyChanges, &pass.Context)
+  : State(state), Pass(pass), Threads(threads),
+    Edits(state, evidence, topologyChanges, &pass.Context)
 {
   SurfaceState& s = this->State;
   this->CollectActive();

@@ -36,8 +36,8 @@ public:
    * Write `count` weighted sums (a multiple of 4) of values at distance `stride`. There are
    * `before` values before and `after` values after the middle.
    */
-  void Sum(const float* from, std::ptrdiff_t stride, int before, int after, int count,
-    float* sums) const
+  void Sum(
+    const float* from, std::ptrdiff_t stride, int before, int after, int count, float* sums) const
   {
     int x = 0;
     for (; x + 2 * Lanes::Count <= count; x += 2 * Lanes::Count)
@@ -52,8 +52,7 @@ public:
 
 private:
   template <int Groups>
-  void SumGroups(
-    const float* from, std::ptrdiff_t stride, int before, int after, float* sums) const
+  void SumGroups(const float* from, std::ptrdiff_t stride, int before, int after, float* sums) const
   {
     const int both = std::min({ before, after, this->Reach() });
     const int most = std::min(std::max(before, after), this->Reach());
@@ -127,10 +126,9 @@ void BoundaryGaussian::Smooth(const VoxelBits& rows, const VoxelBits& varying,
           [&](int i, int j, int k, int length)
           {
             const int first = std::max(box.First[0], i - margin);
-            source(first, j, k, std::min(box.End[0], i + length + margin) - first,
-              sourceAt(first, j));
-            std::copy_n(
-              sourceAt(i, j), length, alongX.data() + box.NumberOf(i, j, box.First[2]));
+            source(
+              first, j, k, std::min(box.End[0], i + length + margin) - first, sourceAt(first, j));
+            std::copy_n(sourceAt(i, j), length, alongX.data() + box.NumberOf(i, j, box.First[2]));
           });
         changed.ForLayer(static_cast<int>(n),
           [&](int i, int j, int, int length)

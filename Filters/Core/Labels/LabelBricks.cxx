@@ -8,8 +8,7 @@
 namespace volumic
 {
 LabelBricks::LabelBricks(const LabelMap& map, Executor& executor, const VoxelBox& inside)
-  : Labels(&map), Counted(inside),
-    Extents(static_cast<std::size_t>(map.NumberOfObjects) + 1)
+  : Labels(&map), Counted(inside), Extents(static_cast<std::size_t>(map.NumberOfObjects) + 1)
 {
   std::transform(map.Size().begin(), map.Size().end(), this->Count.begin(),
     [](int voxels) { return (voxels + Side - 1) / Side; });
