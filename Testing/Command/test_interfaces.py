@@ -130,8 +130,8 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(set(faces), set(range(7)))
         at = points[triangles_of(mesh)[faces == 2]][..., 0]
         self.assertLess(np.abs(at - (period().shape[2] - 0.5)).max(), 1e-12)
-        self.rejects(r"not along y: .* differs from it in \d+ % of the voxels, .* Set --box-faces "
-                     "to flat", self.map_of(period()[:, :12]), self.path("o.msh"), "--labels",
+        self.rejects(r"not periodic along y: .* differ in \d+ % of the voxels, .* Set --box-faces to "
+                     "flat", self.map_of(period()[:, :12]), self.path("o.msh"), "--labels",
                      "all", "--box-faces", "periodic")
         self.run_command(file, self.path("o/"), "--labels", "2,3", "--box-faces", "flat")
         faces = read(self.path("o/label-2.vtp")).GetCellData().GetArray("BoxFace")
