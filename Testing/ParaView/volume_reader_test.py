@@ -160,7 +160,7 @@ class VolumeReaderTest(testing.PluginTestCase):
             for time in (0, 1, 0):
                 source.UpdatePipeline(time)
         self.assertEqual([shown_of(text) for text in messages.text.strip().split("\n\n")], [
-            f"Its sform, which is used, and its qform differ ({name})"
+            f"Sform and qform differ and the sform is used ({name})"
             for name in ("turned.nii.gz", "turned.nii")])
 
     def test_error_messages(self):
