@@ -41,10 +41,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
         console.error(f"{arguments[-1] if arguments else ''}: not enough memory; crop the volume "
                       "or resample it to fewer voxels")
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # for the flush at the end
+        pass
     except OSError as error:
         where = f"{error.filename}: " if error.filename else "the standard output: "
         console.error(one_line(f"{where}{error.strerror or error}"))
+    try:
+        sys.stdout.flush()
+    except OSError:  # Otherwise the flush at exit fails, with another exit code.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     return FAILED
 

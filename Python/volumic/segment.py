@@ -16,8 +16,7 @@ from .errors import Failure, Interrupted
 from .label_map import name_labels
 from .messages import Run, Console, number_text
 from .option_tables import Filters
-from .options import (
-    has_property, with_option_names, writes_tetrahedra, needs_surface)
+from .options import (has_property, with_option_names, writes_tetrahedra, needs_surface)
 from .reading import list_files, points
 from .triangles import find_triangles
 from .writing import files

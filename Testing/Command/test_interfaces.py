@@ -122,8 +122,7 @@ class OneMeshTest(InterfacesTest):
 
     def test_box_faces(self):
         file = self.map_file("map.vti", make_image(period(), SPACING, ORIGIN, TURNED))
-        self.run_command(file, self.path("a.vtp"), "--labels", "all", "--box-faces",
-                         "periodic")
+        self.run_command(file, self.path("a.vtp"), "--labels", "all", "--box-faces", "periodic")
         mesh = read(self.path("a.vtp"))
         points = (points_of(mesh) - ORIGIN) @ np.linalg.inv(TURNED).T / SPACING
         faces = vtk_to_numpy(mesh.GetCellData().GetArray("BoxFace"))[mesh.GetNumberOfLines():]

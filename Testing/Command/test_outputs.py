@@ -63,8 +63,7 @@ class FullDiskTest(OutputsTest):
                             make_image((ball() > ISO).astype("u1")))
         for arguments in ([self.volume, "--levels-output", self.path("l"), "--iso", ISO],
                           [labels, "--labels", "all", self.path("l/")]):
-            process = self.run_command(*arguments, status=1,
-                                       preexec_fn=largest_file(1000))
+            process = self.run_command(*arguments, status=1, preexec_fn=largest_file(1000))
             self.assertRegex(process.stderr, r"/l.*: cannot be written \(File too large\)")
             self.assertFalse(os.path.exists(self.path("l")), arguments)
 

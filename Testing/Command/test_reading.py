@@ -256,7 +256,7 @@ class OtherFormatsTest(ReadingTestCase):
             image[:] = ball()
             image.signtype, image.valid_range = b"signed__", [-32768., 32767.]
             for name, value in (("image-min", -32768.), ("image-max", 32767.)):
-                file.createVariable(name, "d", ()).assignValue(value)
+                file.createVariable(name, "d", ()).data[...] = value
         self.check(self.read("a.mnc"), ball("f4"))
         self.rejects_truncated("a.mnc", self.content("a.mnc"), ".", sizes=(0.5, 90))
         self.rejects("b.mnc", "crashed|cannot be read", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 9)

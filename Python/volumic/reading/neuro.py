@@ -147,8 +147,7 @@ def _labels_before(file, compression, offset):
 
 def read_minc(path, choice):
     """Read MINC 1 or 2 in a worker process, as HDF5 crashes on some damaged files."""
-    array, affine, choice.times = in_worker(
-        "volumic.reading.neuro:load_minc", path, choice)
+    array, affine, choice.times = in_worker("volumic.reading.neuro:load_minc", path, choice)
     return make_volume(array, affine[:3, 2::-1], affine[:3, 3], "RAS", "mm", choice)
 
 

@@ -131,8 +131,7 @@ def _read_nrrd_header(path):
             if field == "datafile" and value.split()[:1] == ["LIST"]:
                 break
         else:
-            raise VolumeError("invalid header: \"%s\" is not a NRRD field"
-                              % plain_name(name[:80]))
+            raise VolumeError("invalid header: \"%s\" is not a NRRD field" % plain_name(name[:80]))
     return fields, pairs, lines[at + 1:], offset_after(at)
 
 
