@@ -234,8 +234,7 @@ class RunTest(CommandTestCase):
 
     def test_edge_map_as_array_or_file(self):
         image = make_image(ball("f4"))
-        magnitude = np.sqrt(sum(np.square(g) for g in np.gradient(
-            ball("f4"), *SPACING[::-1])))
+        magnitude = np.sqrt(sum(np.square(g) for g in np.gradient(ball("f4"), *SPACING[::-1])))
         edges = make_image(magnitude.astype("f4"))
         array = edges.GetPointData().GetScalars()
         array.SetName("gradient")

@@ -145,6 +145,7 @@ TEST_F(ParallelRequests, FirstProcessComputesTheWholeOutput)
         filter->GetOutputDataObject(port)->IsA(info->Get(vtkDataObject::DATA_TYPE_NAME())));
       EXPECT_EQ(SizeOfOutput(filter, port), 0) << port;
     }
+    this->Source->Modified(); // VTK 9.6 does not execute table filters for another piece only.
     filter->UpdatePiece(0, 2, 1);
     EXPECT_EQ(this->Source->Made, Side * Side * Side);
     EXPECT_GT(SizeOfOutput(filter, 0), 0);
