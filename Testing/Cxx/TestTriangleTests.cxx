@@ -39,8 +39,8 @@ TEST(TriangleTests, NeedleDoesNotIntersectBeyondTips)
   const MeshTriangle across = { { 0, 3, 4 },
     { { 0, 0, 0 }, { 0.25, -0.5, -0.25 }, { 0.25, 0.5, 0.25 } } };
   EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
-  const MeshTriangle line = { { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } };
-  EXPECT_FALSE(TrianglesIntersect(line, behind, 1e-4));
+  EXPECT_FALSE(
+    TrianglesIntersect({ { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } }, behind, 1e-4));
 }
 
 TEST(TriangleTests, DetectsCrossingInEitherOrder)
