@@ -8,7 +8,7 @@ from paraview import simple
 import plugin_testing as testing
 import view_testing as views
 
-LEVELS, SNAPSHOTS = 1, 3
+SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
 
 
 def ball(size, radius, centre=0.0):
@@ -36,6 +36,17 @@ class ColoursTest(testing.PluginTestCase):
         self.display.RescaleTransferFunctionToDataRange(False, False)
         simple.Render(self.view)
         return self.display.LookupTable
+
+    def test_outputs_are_plain_surfaces_and_a_chart(self):
+        for port in (SURFACE, LEVELS, SNAPSHOTS):
+            display = simple.Show(simple.OutputPort(self.filter, port), self.view)
+            self.assertEqual(display.Representation, "Surface")
+            self.assertTrue(display.UseSeparateColorMap)
+            self.assertFalse(display.ColorArrayName[1])
+        # ParaView's own chart draws the table.
+        curves = simple.Show(simple.PlotData(simple.OutputPort(self.filter, HISTORY)),
+                             simple.CreateView("XYChartView"))
+        self.assertIn("Vertices", curves.SeriesVisibility)
 
     def test_components_have_a_colour_each(self):
         colours = self.coloured_by("Component", "CELLS")
