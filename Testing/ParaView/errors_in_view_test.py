@@ -15,9 +15,9 @@ FILTERS = {"ImagePyramid": {"ReductionFactor": 3.0, "NumberOfLevels": 20},
            "VolumetoSurface": {"IsoValue": 1000.0, "MinimumLevelSize": 0, "Initialization": 3}}
 
 
-def ball(contrast=100):
+def ball(contrast=100, name="density"):
     inside = numpy.clip(0.5 + 0.5 * (RADIUS - testing.distances(SIZE)), 0, 1)
-    return testing.make_image((contrast * inside).astype(numpy.float32), name="density")
+    return testing.make_image((contrast * inside).astype(numpy.float32), name=name)
 
 
 def no_arrays():
@@ -137,3 +137,16 @@ class ErrorsInViewTest(testing.PluginTestCase):
                     self.check_run(True, expected)
                     self.assertEqual(list(self.filter.Voxels), ["POINTS", "density"])
                     simple.Delete(self.filter)
+
+    def test_another_array(self):
+        """In the next file, after an invalid one."""
+        bad_file = testing.write_volume("volume-none.vti", no_arrays())
+        renamed = testing.write_volume("volume-renamed.vti", ball(1000, "voxels"))
+        self.show("VolumetoSurface")
+        self.check_run(True, first=True)
+        iso_value = self.filter.IsoValue
+        for path in (bad_file, renamed):
+            self.change_file(path)
+            self.check_run(path == renamed)
+        self.assertEqual(list(self.filter.Voxels), ["POINTS", "voxels"])
+        self.assertAlmostEqual(self.filter.IsoValue, 10 * iso_value, delta=1)
