@@ -72,16 +72,6 @@ class ColoursTest(testing.PluginTestCase):
         self.assertEqual(list(colours.IndexedColors)[-3:], list(colours.NanColor))
         views.picture_of(self.view, "colours-many-components.png")
 
-    def test_shared_colour_maps_do_not_change(self):
-        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Component", Function="RTData")
-        display = simple.Show(other, self.view)
-        display.SetRepresentationType("Surface")
-        simple.ColorBy(display, ("POINTS", "Component"))
-        before = list(display.LookupTable.RGBPoints)
-        self.coloured_by("Component", "CELLS")
-        self.assertNotEqual(display.LookupTable, self.display.LookupTable)
-        self.assertEqual(list(display.LookupTable.RGBPoints), before)
-
 
 class BlocksTest(testing.PluginTestCase):
     def shown(self, display):

@@ -158,18 +158,12 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.assertEqual(shown_of(of_filter.text), "Time Limit is -1. Set it to 0 (none) or more seconds.")
 
     def test_a_folder_of_ome_zarr(self):
-        zarr = importlib.import_module("zarr")
+        tools = importlib.import_module("test_ome_zarr")
         path = testing.output_path("organs.zarr")
         shutil.rmtree(path, ignore_errors=True)
-        group = zarr.open_group(path, mode="w")
-        create = getattr(group, "create_array", None) or group.create_dataset # as zarr 2 calls it
-        values = label_maps.values()
-        create("0", shape=values.shape, chunks=(16, 16, 16), dtype=values.dtype)[:] = values
-        group.attrs["multiscales"] = [{
-            "version": "0.4", "axes": [{"name": name, "type": "space", "unit": "micrometer"}
-                                       for name in "zyx"],
-            "datasets": [{"path": "0", "coordinateTransformations": [
-                {"type": "scale", "scale": [2, 0.75, 0.5]}]}]}]
+        group = tools.zarr.open_group(path, mode="w")
+        tools.add_array(group, "0", label_maps.values())
+        tools.describe(group, "zyx", [("0", [{"type": "scale", "scale": [2, 0.75, 0.5]}])])
         image = testing.fetch(simple.OpenDataFile(path))
         self.assertEqual(image.GetSpacing(), (0.5, 0.75, 2))
         name = image.GetPointData().GetScalars().GetName()
