@@ -15,6 +15,9 @@
 #include <mutex>
 #include <thread>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 using namespace volumic;
 
 namespace
@@ -82,6 +85,20 @@ TEST(HostThreads, AreLimitedByVtk)
   vtkSMPTools::Initialize(1);
   EXPECT_EQ(HostThreads(0).NumberOfThreads(), 1);
   vtkSMPTools::Initialize(before);
+}
+
+TEST(HostThreadsDeathTest, AreAsManyAsTheSystemAllows)
+{
+  const auto work = []
+  {
+    // A user without other processes; root has no limit.
+    const rlimit most = { 1, 1 };
+    const bool isLimited =
+      (geteuid() != 0 || setuid(54321) == 0) && setrlimit(RLIMIT_NPROC, &most) == 0;
+    std::exit(isLimited && ThreadsAtWork(2) == 1 && ThreadsAtWork(0) == 1 ? 0 : 1);
+  };
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Processors, AreLimitedByTheCgroupQuota)
