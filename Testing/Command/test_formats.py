@@ -86,7 +86,7 @@ class VolumesTest(CommandTestCase):
     def test_single_slice_fails(self):
         header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22").replace(
             b"1 0 0 0 1 0 0 0 1", b"1 0 0 1").replace(b"0.5 0.75 1.0", b"0.5 0.75").replace(b" 9.5", b"")
-        self.rejects("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
+        self.rejects("a.mha: the image is 2D .26 x 22 x 1", self.write_bytes(
             "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
 
 
