@@ -59,22 +59,3 @@ class ReadingTestCase(FolderTestCase):
             length = len(old) if isinstance(old, bytes) else len(new)
             with self.subTest(name, old=old, new=new[:30]):
                 self.rejects(name, reason, content[:offset] + new + content[offset + length:])
-
-    def rejects_truncated(self, name, content, reason="truncated|damaged",
-                          sizes=(0.1, 0.5, 0.9, -10, -1)):
-        """Check that a file is read, but rejected if truncated to each fraction or by each number
-        of bytes."""
-        self.read(name, content)
-        for size in sizes:
-            with self.subTest(name, size=size):
-                count = int(len(content) * size) if 0 < size < 1 else size
-                self.rejects(name, reason, content[:count])
-
-    def rejects_bit_flips(self, name, content, start):
-        """Check that compressed data with any bit flipped are rejected."""
-        generator = np.random.default_rng(6)
-        for offset in generator.integers(start, len(content), 30):
-            damaged = bytearray(content)
-            damaged[offset] ^= 1 << int(generator.integers(8))
-            with self.subTest(name, offset=offset):
-                self.rejects(name, "damaged|truncated|exceed|too long|missing", damaged)
