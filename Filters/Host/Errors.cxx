@@ -26,20 +26,11 @@ unsigned long RunAlgorithm(vtkAlgorithm* filter, vtkInformationVector* outputs,
   {
     work();
   }
-  catch (const std::bad_alloc&)
+  catch (const std::exception& error)
   {
-    code = vtkErrorCode::UnknownError;
-    text = memoryMessage();
-  }
-  catch (const InvalidArgument& invalid)
-  {
-    code = vtkErrorCode::UserError;
-    text = invalid.what();
-  }
-  catch (const std::exception& other)
-  {
-    code = vtkErrorCode::UnknownError;
-    text = other.what();
+    const bool isInvalid = dynamic_cast<const InvalidArgument*>(&error) != nullptr;
+    code = isInvalid ? vtkErrorCode::UserError : vtkErrorCode::UnknownError;
+    text = dynamic_cast<const std::bad_alloc*>(&error) ? memoryMessage() : error.what();
   }
   if (code != vtkErrorCode::NoError)
   {

@@ -17,7 +17,7 @@ public:
   /**
    * @param numberOfThreads upper limit, besides the affinity of the process. 0: all processors of
    *   the affinity, limited by VTK_SMP_MAX_THREADS, by vtkSMPTools::Initialize() and by the quota
-   *   of the process's cgroup
+   *   of the process's cgroup. The first object creates threads to find how many the system allows
    */
   explicit HostThreads(int numberOfThreads);
 };

@@ -36,9 +36,9 @@ inline bool IsFirstProcess(vtkInformation* request, vtkInformationVector* output
 {
   vtkInformation* info = RequestedOutput(request, outputs);
   using Pipeline = vtkStreamingDemandDrivenPipeline;
-  const bool isPieceOfNone = info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
-    info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0;
-  return !isPieceOfNone && info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0;
+  return info->Get(Pipeline::UPDATE_PIECE_NUMBER()) <= 0 &&
+    !(info->Has(Pipeline::UPDATE_NUMBER_OF_PIECES()) &&
+      info->Get(Pipeline::UPDATE_NUMBER_OF_PIECES()) == 0);
 }
 
 inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs)
@@ -47,10 +47,7 @@ inline bool IsOnlyProcess(vtkInformation* request, vtkInformationVector* outputs
            ->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()) <= 1;
 }
 
-/**
- * Return whether the data come from Resample To Image. All processes must request the same extent
- * from this filter, or it terminates them.
- */
+/** Return whether the data come from Resample To Image, where all must request the same extent. */
 inline bool IsResampled(vtkAlgorithm* source)
 {
   bool isResampled = source->IsA("vtkResampleToImage") != 0;
@@ -65,9 +62,8 @@ inline bool IsResampled(vtkAlgorithm* source)
 }
 
 /**
- * Implement RequestUpdateExtent() of the filters. The first process requests the whole of all
- * inputs. The others request empty images, unless these are resampled. They request their own piece
- * of data without a whole extent, such as surfaces, which is small.
+ * Implement RequestUpdateExtent(). The first process requests the whole of all inputs. The others
+ * request empty images, unless these are resampled, and their piece of surfaces, which are small.
  * @param all whether all processes request the whole
  */
 inline void RequestInputs(vtkAlgorithm* filter, vtkInformation* request,
@@ -111,15 +107,13 @@ inline void MakeNullBlocks(vtkMultiBlockDataSet* output, const std::vector<std::
 /** Return whether the input data of a port are released after use. */
 inline bool AreReleased(vtkAlgorithm* filter, int port)
 {
+  bool areReleased = vtkDataObject::GetGlobalReleaseDataFlag() != 0;
   for (int i = 0; i < filter->GetNumberOfInputConnections(port); ++i)
   {
-    vtkInformation* info = filter->GetExecutive()->GetInputInformation(port, i);
-    if (info->Get(vtkDemandDrivenPipeline::RELEASE_DATA()))
-    {
-      return true;
-    }
+    areReleased |= filter->GetExecutive()->GetInputInformation(port, i)->Get(
+                     vtkDemandDrivenPipeline::RELEASE_DATA()) != 0;
   }
-  return vtkDataObject::GetGlobalReleaseDataFlag() != 0;
+  return areReleased;
 }
 
 // The next two functions depend on the version of VTK: 9.1, 9.2 (ParaView 5.11) and newer.
@@ -143,10 +137,7 @@ inline bool IsAbortRequested(vtkAlgorithm* algorithm)
  */
 inline void ForgetAbort(vtkAlgorithm* algorithm)
 {
-  if (algorithm->GetAbortExecute())
-  {
-    algorithm->SetAbortExecute(0);
-  }
+  algorithm->SetAbortExecute(0);
 }
 }
 

@@ -24,19 +24,14 @@ std::string BlocksOf(const Monitor::Status& status)
 
 std::string TextOf(const Monitor::Status& status)
 {
-  switch (status.Doing)
+  const bool isIterating = status.Doing == Monitor::Activity::Iterating;
+  if (isIterating || status.Doing == Monitor::Activity::Regularising)
   {
-    case Monitor::Activity::Starting:
-      return "start";
-    case Monitor::Activity::Dividing:
-      return "subdivision";
-    case Monitor::Activity::Recovering:
-      return "recovery";
-    case Monitor::Activity::Iterating:
-      return Join("iteration ", status.Iteration, BlocksOf(status));
-    default:
-      return "optimization" + BlocksOf(status);
+    return (isIterating ? Join("iteration ", status.Iteration) : "optimization") + BlocksOf(status);
   }
+  return status.Doing == Monitor::Activity::Starting ? "start"
+    : status.Doing == Monitor::Activity::Dividing    ? "subdivision"
+                                                     : "recovery";
 }
 }
 
@@ -59,15 +54,10 @@ bool RunObserver::ReportProgress(double fraction, const std::string& text)
 bool RunObserver::IsStopped()
 {
   this->IsAborted = this->IsAborted || IsAbortRequested(this->Filter);
-  const std::chrono::duration<double> elapsed = Clock::now() - this->Started;
   this->IsOutOfTime = this->IsOutOfTime ||
-    (!this->IsAborted && this->TimeLimit > 0.0 && elapsed.count() >= this->TimeLimit);
+    (!this->IsAborted && this->TimeLimit > 0.0 &&
+      std::chrono::duration<double>(Clock::now() - this->Started).count() >= this->TimeLimit);
   return this->IsAborted || this->IsOutOfTime;
-}
-
-std::string RunObserver::StopReason() const
-{
-  return this->IsOutOfTime ? "time limit" : "cancelled";
 }
 
 void RunObserver::Warn(const std::string& text)

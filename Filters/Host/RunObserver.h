@@ -39,13 +39,13 @@ public:
   /** Return whether the run must stop. Once it is true, it remains true. */
   bool IsStopped();
   /** Return the `StopReason` of a stopped run: "time limit" or "cancelled". */
-  std::string StopReason() const;
+  const char* StopReason() const { return this->IsOutOfTime ? "time limit" : "cancelled"; }
 
   Clock::time_point Start() const { return this->Started; }
 
   /**
-   * Add a warning to report after the run, as ParaView's message box would cover the progress bar.
-   * Ignore empty and repeated texts.
+   * Add a warning to report after the run, unless it is empty or repeated. ParaView's message box
+   * would cover the progress bar.
    */
   void Warn(const std::string& text);
 
@@ -63,8 +63,7 @@ class LevelMonitor final : public Monitor
 {
 public:
   /**
-   * Monitor the levels from `coarsest` to `finest`. A level has about three times the vertices of
-   * the next coarser level, and takes about three times as long.
+   * Monitor the levels `coarsest` to `finest`. Each takes three times as long as the coarser one.
    * @param before fraction of the work before the first of these levels
    */
   LevelMonitor(RunObserver& observer, double before, int coarsest, int finest)

@@ -29,7 +29,6 @@ def add_options(parser):
                         help="resample to N^3 voxels; 0: original size (default: 0)")
     parser.add_argument("--threads", default="1,2", metavar="LIST", help="(default: 1,2)")
     parser.add_argument("--repetitions", type=int, default=1, help="in turns; medians are reported")
-    parser.add_argument("--suffix", default=".vtp", help="file format of the surfaces (default: .vtp)")
 
 
 def resample(volume, size, output):
@@ -54,7 +53,7 @@ def resample(volume, size, output):
 
 def run(options, folder, volume, threads):
     surface, history, report = (os.path.join(folder, name) for name in (
-        "surface" + options.suffix, "history.csv", "report.json"))
+        "surface.vtp", "history.csv", "report.json"))
     seconds, processor, peak = timed(
         options.volumic, volume, surface, "--quiet", "--threads", threads, "--report", report,
         "--history", history, *options.rest)

@@ -148,12 +148,8 @@ def graded(skull):
 
 
 def thin(skull):
-    return beside_uniform(skull, "Thin parts", {"ThinParts": True}, whole, towards="P",
-                          at=EDGE_OF_THE_REST)
-
-
-def whole(surface):
-    return surface, None
+    return beside_uniform(skull, "Thin parts", {"ThinParts": True}, lambda surface: (surface, None),
+                          towards="P", at=EDGE_OF_THE_REST)
 
 
 def beside_uniform(scan, name, properties, shown_of=main_component, **view):
@@ -229,7 +225,8 @@ def stages_by_level(surface):
     total = 0
     for level, count in counts:
         total += count
-        stages.append((f"Level {level}, iteration {total}", blocks[level]))
+        if level in blocks:  # the object did not vanish
+            stages.append((f"Level {level}, iteration {total}", blocks[level]))
     return stages
 
 

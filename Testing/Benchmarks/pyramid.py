@@ -3,19 +3,15 @@
 """Times of vtkImagePyramid and of VTK's Gaussian with resize, on the same int16 voxels, in turns.
 Medians in ms, with allocations: processor time with one thread, elapsed time with two."""
 
-import ctypes
 import statistics
-import subprocess
-import sys
 import time
 
-from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkImagingCore import vtkImageCast, vtkImageResize
 from vtkmodules.vtkImagingGeneral import vtkImageGaussianSmooth
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 from volumic import vtkImagePyramid
 
-from tables import Figures, print_table, print_targets, ratio, short_text
+from tables import print_table, print_targets, ratio, short_text
 
 WORK = [(levels, threads) for levels in ("one level", "all levels") for threads in (1, 2)]
 OURS, VTK = "vtkImagePyramid", "VTK Gaussian, resize"
@@ -79,28 +75,6 @@ def times_of(volume, repetitions):
     return times
 
 
-def resident(name):
-    """Return a value of /proc/self/status in bytes."""
-    with open("/proc/self/status", encoding="ascii") as status:
-        return next(1024 * int(line.split()[1]) for line in status if line.startswith(name + ":"))
-
-
-def print_peak(path, threads):
-    """Print the peak memory. Runs in a process of its own, without memory that was freed before."""
-    volume, small = read(path), vtkImageData()
-    small.SetDimensions(32, 32, 32)  # loads libraries and starts threads before the measurement
-    small.AllocateScalars(4, 1)
-    run_ours(small, 0, threads)
-    ctypes.CDLL(None).malloc_trim(0)  # freed memory must not be reused by the measured run
-    with open("/proc/self/clear_refs", "w", encoding="ascii") as refs:
-        refs.write("5")  # resets the peak
-    before = resident("VmRSS")
-    images = run_ours(volume, 0, threads)
-    pyramid = sum(4 * image.GetNumberOfPoints() for image in images)
-    x, y, _ = volume.GetDimensions()
-    print("@Share", (resident("VmHWM") - before) / (pyramid + 4 * threads * x * y))
-
-
 def measure(options):
     times = times_of(read(options.volume), options.repetitions)
     medians = {key: statistics.median(seconds) for key, seconds in times.items()}
@@ -113,15 +87,5 @@ def measure(options):
             # On a busy machine only the fastest runs show the speed-up of a second thread.
             ("P1", "speed-up of two threads, fastest", ratio(*fastest), ">=", 1.7),
             ("P2", "all levels to one level", ratio(medians[OURS, "all levels", 1], one), "<=", 1.35)]
-    for threads in (1, 2):
-        figures = Figures()
-        figures.take(subprocess.run([sys.executable, __file__, options.volume, str(threads)],
-                                    stdout=subprocess.PIPE, text=True, check=True).stdout)
-        rows.append(("P3", f"peak memory, {threads} thread(s), relative to pyramid and planes",
-                     figures["Share"], "<=", 1))
     print_targets(rows)
     return 0
-
-
-if __name__ == "__main__":
-    print_peak(sys.argv[1], int(sys.argv[2]))

@@ -67,8 +67,8 @@ def like(options, name, us):
     radius = .8 * us["EdgeMean"]
     for _ in range(2 if name == "mesher" else 0):
         share = figures["Vertices"] / us["Vertices"]
-        if not share > 0 or abs(share - 1) <= .05:
-            break
+        if not .5 < share < 2 or abs(share - 1) <= .05:
+            break  # with far fewer vertices it has found a part of the object only
         radius *= math.sqrt(share)  # the number of vertices is proportional to 1/radius^2
         figures = run(options, name, radius=radius)
     return figures

@@ -3,15 +3,11 @@
 """Tests of volumic.reading in this process: each file is read, or rejected in one line that names
 it."""
 
-import os
-import sys
 import time
 import warnings
 
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
-# pylint: disable=wrong-import-position
 from command_test_case import ORIGIN, SPACING, ball
 from folder_test_case import FolderTestCase
 from volumic import reading

@@ -5,7 +5,6 @@ truncated slices."""
 
 import os
 import struct
-import unittest
 
 import numpy as np
 from volumic import reading
@@ -326,7 +325,3 @@ class DamageTest(DicomTest):
                                 ({"frames": "9999999"}, "9999999 frames")):
             with self.subTest(**changes):
                 self.rejects_slice(3, dicom_slice(3, **changes), reason)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,7 +4,6 @@
 
 import itertools
 import os
-import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -124,7 +123,3 @@ class VtkTest(ReadingTestCase):
             if step == 1:
                 self.check(self.read("a.vtr"))
         self.rejects("a.vtr", "of variable spacing, not an image; convert it")
-
-
-if __name__ == "__main__":
-    unittest.main()

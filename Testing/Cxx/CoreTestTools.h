@@ -56,6 +56,35 @@ inline void ExpectValidMesh(const IndexedSurface& surface)
   EXPECT_EQ(CountSelfIntersections(surface), 0);
 }
 
+/** Call visit(u, v, length) for each edge, twice. */
+template <typename Visit>
+void VisitEdges(const IndexedSurface& surface, const Visit& visit)
+{
+  for (const Triangle& t : surface.Triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Point& a = surface.Points[t[k]];
+      const Point& b = surface.Points[t[(k + 1) % 3]];
+      visit(t[k], t[(k + 1) % 3], Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
+    }
+  }
+}
+
+inline void ExpectEdgesWithin(const IndexedSurface& surface, double shortest, double longest)
+{
+  double least = HUGE_VAL;
+  double most = 0;
+  VisitEdges(surface,
+    [&](int, int, double length)
+    {
+      least = std::min(least, length);
+      most = std::max(most, length);
+    });
+  EXPECT_GE(least, shortest);
+  EXPECT_LE(most, longest);
+}
+
 inline SurfaceMesh MakeSphere(const Point& centre, double radius, double meanEdge)
 {
   return MeshOf(DividedIcosahedron(centre, radius, meanEdge));
@@ -113,23 +142,6 @@ inline IndexedSurface Cuboid(const Point& low, const Point& high)
     box.Triangles.push_back({ q[2], q[3], q[0] });
   }
   return box;
-}
-
-/** Double cone along z. Vertices 0 and 1 are the tips, the others follow in order. */
-inline IndexedSurface MakeDoubleCone(const Point& centre, double radius, double height, int sides)
-{
-  IndexedSurface cone;
-  const auto& [x, y, z] = centre;
-  cone.Points = { { x, y, z + height }, { x, y, z - height } };
-  for (int i = 0; i < sides; ++i)
-  {
-    const double a = 2 * 3.14159265358979 * i / sides;
-    const int next = 2 + (i + 1) % sides;
-    cone.Points.push_back({ x + radius * std::cos(a), y + radius * std::sin(a), z });
-    cone.Triangles.push_back({ 0, 2 + i, next });
-    cone.Triangles.push_back({ 1, next, 2 + i });
-  }
-  return cone;
 }
 
 /** Torus around the z axis with n x m vertices. */

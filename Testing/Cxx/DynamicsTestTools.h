@@ -7,8 +7,7 @@
 #include "Core/Evolution/Dynamics.h"
 #include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Surface/Proximity.h"
-#include "Core/Surface/SurfaceState.h"
-#include "CoreTestTools.h"
+#include "LiveSurface.h"
 
 namespace volumic
 {
@@ -17,23 +16,18 @@ struct Stage
 {
   TestVolume Volume;
   SurfaceOptions Options;
-  SurfaceState State;
+  LiveSurface State;
   std::vector<int> All;
   Executor Threads;
 
   /** Surface in an empty image, all forces disabled. */
   Stage(const IndexedSurface& surface, float delta)
-    : Volume(MakeVolume(33, [](double, double, double) { return 0.; }))
+    : Volume(MakeVolume(33, [](double, double, double) { return 0.; })), State(surface, delta),
+      All(this->State.All())
   {
     this->Options.IsopotentialWeight = 0;
     this->Options.TensionWeight = 0;
     this->Options.ElasticityWeight = 0;
-    this->State.Mesh.Append(surface);
-    this->State.Sizing = SizingField(delta);
-    this->State.Reset(Vector(-40, -40, -40), Vector(80, 80, 80));
-    this->All.resize(this->State.Mesh.Size());
-    std::iota(this->All.begin(), this->All.end(), 0);
-    this->UpdateShape();
   }
 
   /** Ball of radius 8 and concentric sphere at (16, 16, 16), default forces. */
@@ -46,7 +40,7 @@ struct Stage
     this->Options.IsoValue = 0.5;
   }
 
-  void UpdateShape() { this->State.UpdateShape(this->All, this->Threads); }
+  void UpdateShape() { this->State.UpdateShape(); }
 
   /** Apply velocities and displacements of one iteration. @return time step */
   double Push(const std::vector<Proximity::ClosePair>& pairs = {})

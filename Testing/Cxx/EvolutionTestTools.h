@@ -140,29 +140,6 @@ private:
   Monitor& Listener;
 };
 
-/** Return the lengths of all edges, each twice. */
-inline std::vector<double> EdgeLengths(const IndexedSurface& surface)
-{
-  std::vector<double> lengths;
-  for (const Triangle& t : surface.Triangles)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Point& a = surface.Points[t[k]];
-      const Point& b = surface.Points[t[(k + 1) % 3]];
-      lengths.push_back(Distance(a[0], a[1], a[2], b[0], b[1], b[2]));
-    }
-  }
-  return lengths;
-}
-
-inline void ExpectEdgesWithin(const IndexedSurface& surface, double shortest, double longest)
-{
-  const std::vector<double> lengths = EdgeLengths(surface);
-  EXPECT_GE(*std::min_element(lengths.begin(), lengths.end()), shortest);
-  EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), longest);
-}
-
 /** Expect edge lengths within the bounds of eq. (1). */
 inline void ExpectLegalEdges(const SurfaceResult& surface)
 {

@@ -9,6 +9,7 @@
 
 #include <vtkAlgorithm.h>
 #include <vtkCallbackCommand.h>
+#include <vtkCellData.h>
 #include <vtkCommand.h>
 #include <vtkDataArray.h>
 #include <vtkErrorCode.h>
@@ -18,41 +19,56 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkWeakPointer.h>
 
 /** Tools for tests of VTK classes. */
 namespace volumic
 {
+/** Calls a function with the data of each event of an object until destruction. */
+class EventHook
+{
+public:
+  EventHook(vtkObject* sender, unsigned long event, std::function<void(void*)> call)
+    : Sender(sender), Call(std::move(call))
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
+      { static_cast<EventHook*>(client)->Call(data); });
+    sender->AddObserver(event, this->Command);
+  }
+  ~EventHook()
+  {
+    if (this->Sender)
+    {
+      this->Sender->RemoveObserver(this->Command);
+    }
+  }
+  EventHook(const EventHook&) = delete;
+  EventHook& operator=(const EventHook&) = delete;
+
+private:
+  vtkWeakPointer<vtkObject> Sender;
+  std::function<void(void*)> Call;
+  vtkNew<vtkCallbackCommand> Command;
+};
+
 /** Collects the messages of an event (errors, warnings) without printing them. */
 class MessagesOf
 {
 public:
   explicit MessagesOf(vtkObject* sender, unsigned long event = vtkCommand::ErrorEvent)
+    : Hook(
+        sender, event, [this](void* message) { this->Text += static_cast<const char*>(message); })
   {
-    this->Command->SetClientData(&this->Text);
-    this->Command->SetCallback([](vtkObject*, unsigned long, void* client, void* message)
-      { *static_cast<std::string*>(client) += static_cast<const char*>(message); });
-    this->Sender = sender;
-    this->Tag = sender->AddObserver(event, this->Command);
   }
-  ~MessagesOf()
-  {
-    if (this->Sender)
-    {
-      this->Sender->RemoveObserver(this->Tag);
-    }
-  }
-  MessagesOf(const MessagesOf&) = delete;
-  MessagesOf& operator=(const MessagesOf&) = delete;
 
   const std::string& Get() const { return this->Text; }
   bool Has(const std::string& part) const { return this->Text.find(part) != std::string::npos; }
 
 private:
   std::string Text;
-  vtkNew<vtkCallbackCommand> Command;
-  vtkWeakPointer<vtkObject> Sender;
-  unsigned long Tag = 0;
+  EventHook Hook;
 };
 
 /** Update a filter and return its messages of an event. */
@@ -71,6 +87,14 @@ inline vtkIdType SizeOfOutput(vtkAlgorithm* filter, int port = 0)
   return output->GetNumberOfElements(vtkDataObject::POINT) +
     output->GetNumberOfElements(vtkDataObject::ROW);
 }
+
+/** A setting or input that is invalid, and parts of the error. */
+template <typename Filter>
+struct ErrorCase
+{
+  std::function<void(Filter*)> Spoil;
+  std::vector<std::string> Parts;
+};
 
 /** Update a filter. Expect an error that contains these parts, and an empty output. */
 inline void ExpectErrorOf(vtkAlgorithm* filter, const std::vector<std::string>& parts)
@@ -105,6 +129,14 @@ inline vtkDataArray* Voxels(vtkImageData* image)
   return image->GetPointData()->GetScalars();
 }
 
+/** Return the field data `StopReason`; empty if there is none. */
+inline std::string StopReason(vtkDataObject* output)
+{
+  auto* reason =
+    vtkStringArray::SafeDownCast(output->GetFieldData()->GetAbstractArray("StopReason"));
+  return reason ? reason->GetValue(0) : "";
+}
+
 /** Return the unit U_h of a level. */
 inline double UnitOf(vtkImageData* level)
 {
@@ -122,14 +154,12 @@ using ChoiceOf = typename ChoiceFor<Filter>::Type;
 
 /** Return an updated filter with these settings. */
 template <typename Filter>
-vtkSmartPointer<Filter> Updated(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+vtkSmartPointer<Filter> Updated(
+  vtkDataObject* input, const ChoiceOf<Filter>& choose = [](Filter*) {})
 {
   auto filter = vtkSmartPointer<Filter>::New();
   filter->SetInputDataObject(input);
-  if (choose)
-  {
-    choose(filter);
-  }
+  choose(filter);
   filter->Update();
   return filter;
 }
@@ -141,40 +171,20 @@ inline vtkSmartPointer<vtkImagePyramid> PyramidOf(vtkImageData* image, int level
 }
 
 /** Calls a function at each progress event of an algorithm. */
-class ProgressHook
+struct ProgressHook : EventHook
 {
-public:
   using Callback =
     std::function<void(vtkAlgorithm* filter, const std::string& text, double progress)>;
 
-  ProgressHook(vtkAlgorithm* algorithm, Callback callback)
-    : Algorithm(algorithm), Call(std::move(callback))
+  ProgressHook(vtkAlgorithm* filter, const Callback& call)
+    : EventHook(filter, vtkCommand::ProgressEvent,
+        [filter, call](void* progress)
+        {
+          const char* text = filter->GetProgressText();
+          call(filter, text ? text : "", *static_cast<double*>(progress));
+        })
   {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject* caller, unsigned long, void* client, void* progress)
-      {
-        auto* filter = vtkAlgorithm::SafeDownCast(caller);
-        const char* text = filter->GetProgressText();
-        static_cast<ProgressHook*>(client)->Call(
-          filter, text ? text : "", *static_cast<double*>(progress));
-      });
-    algorithm->AddObserver(vtkCommand::ProgressEvent, this->Command);
   }
-  ~ProgressHook()
-  {
-    if (this->Algorithm)
-    {
-      this->Algorithm->RemoveObserver(this->Command);
-    }
-  }
-  ProgressHook(const ProgressHook&) = delete;
-  ProgressHook& operator=(const ProgressHook&) = delete;
-
-private:
-  vtkWeakPointer<vtkAlgorithm> Algorithm;
-  Callback Call;
-  vtkNew<vtkCallbackCommand> Command;
 };
 
 /** Records the progress and aborts the filter at StopAt. */
@@ -227,6 +237,25 @@ struct StopAtText
   ProgressHook Hook;
 };
 
+/** Expect the error of a filter whose memory ends at a progress text, and an empty output. */
+inline void ExpectErrorWithoutMemory(
+  vtkAlgorithm* filter, const std::string& at, const std::string& error)
+{
+  bool hasThrown = false;
+  const ProgressHook hook(filter,
+    [&](vtkAlgorithm*, const std::string& text, double)
+    {
+      if (text == at && !std::exchange(hasThrown, true))
+      {
+        throw std::bad_alloc();
+      }
+    });
+  EXPECT_TRUE(Has(MessagesOfUpdate(filter), error));
+  EXPECT_TRUE(hasThrown);
+  EXPECT_EQ(SizeOfOutput(filter), 0) << "the output must be empty";
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UnknownError));
+}
+
 /** Return an image with valueAt(i, j, k) at each voxel, first voxel at extent 0. */
 inline vtkSmartPointer<vtkImageData> ImageOf(const std::array<int, 3>& size,
   const std::function<double(int, int, int)>& valueAt, int scalarType = VTK_FLOAT,
@@ -267,6 +296,23 @@ inline vtkSmartPointer<vtkImageData> BallImage(int nx, int ny, int nz, double ra
       const double inside = radius - std::sqrt(x * x + y * y + z * z);
       return 100.0 * std::clamp(0.5 + 0.4 * inside, 0.0, 1.0);
     });
+}
+
+/** Return the image with its voxels as cells, at the same positions. */
+inline vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
+{
+  auto cells = vtkSmartPointer<vtkImageData>::New();
+  int extent[6];
+  image->GetExtent(extent);
+  const double corner[3] = { -0.5, -0.5, -0.5 };
+  double origin[3];
+  image->TransformContinuousIndexToPhysicalPoint(corner, origin);
+  cells->SetExtent(extent[0], extent[1] + 1, extent[2], extent[3] + 1, extent[4], extent[5] + 1);
+  cells->SetOrigin(origin);
+  cells->SetSpacing(image->GetSpacing());
+  cells->SetDirectionMatrix(image->GetDirectionMatrix());
+  cells->GetCellData()->SetScalars(image->GetPointData()->GetScalars());
+  return cells;
 }
 
 /** Set the voxels in [first, end) of an image whose extent begins at 0. */

@@ -60,7 +60,7 @@ inline void AddNames(vtkImageData* image)
 inline vtkSmartPointer<vtkLabelsToSurfaces> LabelSurfacesOf(
   vtkDataObject* input, const std::function<void(vtkLabelsToSurfaces*)>& choose = {})
 {
-  return Updated<vtkLabelsToSurfaces>(input, choose);
+  return choose ? Updated<vtkLabelsToSurfaces>(input, choose) : Updated<vtkLabelsToSurfaces>(input);
 }
 
 inline vtkPolyData* BlockOf(vtkLabelsToSurfaces* filter, unsigned int block)

@@ -3,7 +3,6 @@
 #ifndef volumicLiveSurface_h
 #define volumicLiveSurface_h
 
-#include "Core/Mesh/TriangleTests.h"
 #include "Core/Surface/SurfaceState.h"
 #include "CoreTestTools.h"
 
@@ -21,21 +20,34 @@ struct LiveSurface : SurfaceState
     this->Mesh = mesh;
     this->Sizing = SizingField(delta);
     this->Reset(Vector(-30, -30, -30), Vector(70, 40, 40));
-    this->UpdateShape(this->All(), OnThisThread());
+    this->UpdateShape();
   }
 
+  /** Return the vertices that are alive. */
   std::vector<int> All() const
   {
-    std::vector<int> all(this->Mesh.Size());
-    std::iota(all.begin(), all.end(), 0);
+    std::vector<int> all;
+    for (int v = 0; v < this->Mesh.Size(); ++v)
+    {
+      if (this->Mesh.IsAlive(v))
+      {
+        all.push_back(v);
+      }
+    }
     return all;
   }
-};
 
-inline MeshTriangle Named(int name, const VectorD& a, const VectorD& b, const VectorD& c)
-{
-  return { { name, name + 1, name + 2 }, { a, b, c } };
-}
+  using SurfaceState::UpdateShape;
+  void UpdateShape() { this->UpdateShape(this->All(), OnThisThread()); }
+
+  /** Test the invariants after edits. */
+  bool IsSound() const
+  {
+    return DescribeBrokenInvariant(this->Mesh).empty() &&
+      CountSelfIntersections(this->Mesh.ToIndexed(), 1) == 0 &&
+      this->Mesh.CountEulerCharacteristic() == this->EulerCharacteristic;
+  }
+};
 }
 
 #endif

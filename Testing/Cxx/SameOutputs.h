@@ -70,17 +70,6 @@ inline void ExpectSameBlocks(vtkMultiBlockDataSet* a, vtkMultiBlockDataSet* b)
   }
 }
 
-/** Return settings with more state to keep in a cancelled run than the defaults. */
-inline std::vector<Choice> ChoicesOfRuns()
-{
-  return { [](vtkDeformableSurface*) {},
-    [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(7); },
-    [](vtkDeformableSurface* filter) { filter->SetRecovery(vtkDeformableSurface::NoRecovery); },
-    [](vtkDeformableSurface* filter) { filter->SetInitializationToSeeds(); },
-    [](vtkDeformableSurface* filter) { filter->SetKeepComponentsToLargestComponent(); },
-    [](vtkDeformableSurface* filter) { filter->SetMaximumNumberOfIterations(12); } };
-}
-
 /** Expect identical outputs, except for the column Seconds. */
 inline void ExpectSameOutputs(vtkDeformableSurface* a, vtkDeformableSurface* b)
 {

@@ -11,7 +11,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkSphereSource.h>
-#include <vtkStringArray.h>
 
 /** Tools for tests of vtkDeformableSurface. */
 namespace volumic
@@ -20,21 +19,20 @@ using Choice = ChoiceOf<vtkDeformableSurface>;
 
 /** Return a filter with iso-value 50 and these settings, not updated. */
 template <typename Filter = vtkDeformableSurface>
-vtkSmartPointer<Filter> FilterOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+vtkSmartPointer<Filter> FilterOf(
+  vtkDataObject* input, const ChoiceOf<Filter>& choose = [](Filter*) {})
 {
   auto filter = vtkSmartPointer<Filter>::New();
   filter->SetInputDataObject(input);
   filter->SetIsoValue(50.0);
-  if (choose)
-  {
-    choose(filter);
-  }
+  choose(filter);
   return filter;
 }
 
 /** Return an updated filter with iso-value 50 and these settings. */
 template <typename Filter = vtkDeformableSurface>
-vtkSmartPointer<Filter> SurfaceOf(vtkDataObject* input, const ChoiceOf<Filter>& choose = {})
+vtkSmartPointer<Filter> SurfaceOf(
+  vtkDataObject* input, const ChoiceOf<Filter>& choose = [](Filter*) {})
 {
   const auto filter = FilterOf<Filter>(input, choose);
   filter->Update();
@@ -50,11 +48,37 @@ inline double FieldOf(vtkPolyData* surface, const char* name, int i = 0)
     : std::nan("");
 }
 
-inline std::string StopReason(vtkPolyData* surface)
+inline std::array<double, 3> PointOf(vtkPolyData* surface, vtkIdType id)
 {
-  auto* reason =
-    vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray("StopReason"));
-  return reason ? reason->GetValue(0) : "";
+  std::array<double, 3> p;
+  surface->GetPoint(id, p.data());
+  return p;
+}
+
+/** Return the lengths of the edges of all triangles, sorted. */
+inline std::vector<double> EdgeLengthsOf(vtkPolyData* surface)
+{
+  std::vector<double> lengths;
+  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
+  {
+    vtkIdType size;
+    const vtkIdType* ids;
+    surface->GetCellPoints(c, size, ids);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      const auto p = PointOf(surface, ids[k]);
+      const auto q = PointOf(surface, ids[(k + 1) % size]);
+      lengths.push_back(std::sqrt(vtkMath::Distance2BetweenPoints(p.data(), q.data())));
+    }
+  }
+  std::sort(lengths.begin(), lengths.end());
+  return lengths;
+}
+
+inline double MeanEdgeOf(vtkPolyData* surface)
+{
+  const std::vector<double> lengths = EdgeLengthsOf(surface);
+  return std::accumulate(lengths.begin(), lengths.end(), 0.) / static_cast<double>(lengths.size());
 }
 
 /** Return the signed volume: negative if the triangles are oriented inward. */
@@ -66,14 +90,9 @@ inline double EnclosedVolume(vtkPolyData* surface)
     vtkIdType size;
     const vtkIdType* ids;
     surface->GetCellPoints(c, size, ids);
-    double p[3][3];
-    for (int corner = 0; corner < 3; ++corner)
-    {
-      surface->GetPoint(ids[corner], p[corner]);
-    }
-    double cross[3];
-    vtkMath::Cross(p[1], p[2], cross);
-    volume += vtkMath::Dot(p[0], cross) / 6.0;
+    volume += vtkMath::Determinant3x3(PointOf(surface, ids[0]).data(),
+                PointOf(surface, ids[1]).data(), PointOf(surface, ids[2]).data()) /
+      6.0;
   }
   return volume;
 }
@@ -111,26 +130,6 @@ inline vtkSmartPointer<vtkPolyData> SphereAt(
   return sphere->GetOutput();
 }
 
-/** Call visit(p, q) for each edge of each triangle. */
-template <typename Visit>
-void VisitEdges(vtkPolyData* surface, const Visit& visit)
-{
-  for (vtkIdType c = 0; c < surface->GetNumberOfCells(); ++c)
-  {
-    vtkIdType size;
-    const vtkIdType* ids;
-    surface->GetCellPoints(c, size, ids);
-    for (vtkIdType k = 0; k < size; ++k)
-    {
-      std::array<double, 3> p;
-      std::array<double, 3> q;
-      surface->GetPoint(ids[k], p.data());
-      surface->GetPoint(ids[(k + 1) % size], q.data());
-      visit(p, q);
-    }
-  }
-}
-
 /** Count the edges that do not have two triangles. */
 inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
 {
@@ -141,6 +140,27 @@ inline int OpenOrNonManifoldEdges(vtkPolyData* surface)
   edges->NonManifoldEdgesOn();
   edges->Update();
   return static_cast<int>(edges->GetOutput()->GetNumberOfCells());
+}
+
+/** Expect that an output ends with a valid surface of this level, not with a finer one. */
+inline void ExpectSurfaceOfLevel(vtkDeformableSurface* filter, int level)
+{
+  vtkPolyData* surface = filter->GetOutput();
+  EXPECT_EQ(FieldOf(surface, "Level"), level);
+  ASSERT_GT(surface->GetNumberOfPoints(), 0);
+  EXPECT_EQ(OpenOrNonManifoldEdges(surface), 0);
+  EXPECT_GT(EnclosedVolume(surface), 0.0);
+  ASSERT_TRUE(SurfaceAt(filter, level));
+  EXPECT_EQ(SurfaceAt(filter, level)->GetNumberOfPoints(), surface->GetNumberOfPoints());
+  for (int finer = 0; finer < level; ++finer)
+  {
+    EXPECT_FALSE(SurfaceAt(filter, finer));
+  }
+}
+
+inline double VolumeOfBall(double radius)
+{
+  return 4. / 3. * vtkMath::Pi() * std::pow(radius, 3);
 }
 
 /** Expect a closed surface with the points and normals of a sphere. */
@@ -157,8 +177,7 @@ inline void ExpectSphere(
     const double* normal = surface->GetPointData()->GetNormals()->GetTuple(i);
     EXPECT_GT(vtkMath::Dot(normal, outward), 0.9 * radius) << "normals point outward";
   }
-  EXPECT_NEAR(EnclosedVolume(surface), 4. / 3. * vtkMath::Pi() * std::pow(radius, 3),
-    0.03 * 4. * std::pow(radius, 3));
+  EXPECT_NEAR(EnclosedVolume(surface) / VolumeOfBall(radius), 1., 0.028);
 }
 
 /** Whether the points are bit-identical and the numbers of triangles are equal. */
@@ -171,11 +190,7 @@ inline bool AreSameSurfaces(vtkPolyData* a, vtkPolyData* b)
   }
   for (vtkIdType i = 0; i < a->GetNumberOfPoints(); ++i)
   {
-    double p[3];
-    double q[3];
-    a->GetPoint(i, p);
-    b->GetPoint(i, q);
-    if (p[0] != q[0] || p[1] != q[1] || p[2] != q[2])
+    if (PointOf(a, i) != PointOf(b, i))
     {
       return false;
     }

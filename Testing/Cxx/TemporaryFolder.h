@@ -44,6 +44,23 @@ public:
     return names;
   }
 
+  /** Return the addresses that the process maps from files of the folder, as [begin, end). */
+  std::vector<std::pair<std::uintptr_t, std::uintptr_t>> Mapped() const
+  {
+    std::vector<std::pair<std::uintptr_t, std::uintptr_t>> mapped;
+    std::ifstream maps("/proc/self/maps");
+    for (std::string line; std::getline(maps, line);)
+    {
+      std::size_t dash = 0;
+      const std::uintptr_t begin = std::stoull(line, &dash, 16);
+      if (line.find(this->Name + "/") != std::string::npos)
+      {
+        mapped.emplace_back(begin, std::stoull(line.substr(dash + 1), nullptr, 16));
+      }
+    }
+    return mapped;
+  }
+
 private:
   std::string Name;
 };

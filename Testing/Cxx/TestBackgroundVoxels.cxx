@@ -3,7 +3,6 @@
 #include "SurfaceTestTools.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkUnsignedCharArray.h>
 
@@ -96,26 +95,19 @@ TEST(NaNVoxels, OutsideTheFieldOfViewHaveNoEffect)
   }
 }
 
-TEST(NaNVoxels, CutTheObject)
-{
-  QuietSurface surface;
-  vtkPolyData* half = surface.Of(BallWith(NaN, Right));
-  ASSERT_GT(half->GetNumberOfPoints(), 500);
-  EXPECT_NEAR(EnclosedVolume(half), 2.0 / 3.0 * std::acos(-1.0) * std::pow(BallRadius, 3), 120.0);
-  const double* bounds = half->GetBounds();
-  EXPECT_NEAR(bounds[0], BallCentre[0] - BallRadius, 0.5);
-  EXPECT_LT(bounds[1], 20.0);
-  EXPECT_GT(bounds[1], 19.0);
-}
-
-TEST(NaNVoxels, AreReportedOnceWithTheirNumber)
+TEST(NaNVoxels, CutTheObjectAndAreReportedOnceWithTheirNumber)
 {
   const auto image = BallWith(NaN, Right);
   QuietSurface surface;
-  surface.Of(image);
-  const std::string told = surface.Warnings.Get();
-  EXPECT_EQ(CountOf(told, "NaN voxels"), 1) << told;
-  EXPECT_TRUE(Has(told, "array 'Voxels' has 32000 NaN voxels (50 %), the first at (20, 0, 0)"));
+  vtkPolyData* half = surface.Of(image);
+  ASSERT_GT(half->GetNumberOfPoints(), 500);
+  EXPECT_NEAR(EnclosedVolume(half), 0.5 * VolumeOfBall(BallRadius), 120.0);
+  EXPECT_NEAR(half->GetBounds()[0], BallCentre[0] - BallRadius, 0.5);
+  EXPECT_LT(half->GetBounds()[1], 20.0);
+  EXPECT_GT(half->GetBounds()[1], 19.0);
+  const std::string warning = surface.Warnings.Get();
+  EXPECT_EQ(CountOf(warning, "NaN voxels"), 1) << warning;
+  EXPECT_TRUE(Has(warning, "array 'Voxels' has 32000 NaN voxels (50 %), the first at (20, 0, 0)"));
 
   // vtkImagePyramid reports them. For other pyramids vtkDeformableSurface does.
   vtkNew<vtkImagePyramid> pyramid;
@@ -150,10 +142,7 @@ TEST(BlankedVoxels, AreBackgroundWithoutAWarning)
     // The points at 20 are corners of the visible cells at 19.
     hidden->SetValue(cell, cell % (Size - 1) >= 19 ? vtkDataSetAttributes::HIDDENCELL : 0);
   }
-  const auto cells = vtkSmartPointer<vtkImageData>::New();
-  cells->SetDimensions(Size + 1, Size + 1, Size + 1);
-  cells->SetOrigin(-0.5, -0.5, -0.5);
-  cells->GetCellData()->SetScalars(Voxels(BallImage(Size, Size, Size)));
+  const auto cells = AsCells(BallImage(Size, Size, Size));
   vtkUnsignedCharArray* ghosts = AddGhosts(cells->GetCellData(), cells->GetNumberOfCells());
   ForEach(
     Right, [&](vtkIdType voxel) { ghosts->SetValue(voxel, vtkDataSetAttributes::HIDDENCELL); });
@@ -167,13 +156,8 @@ TEST(BlankedVoxels, AreBackgroundWithoutAWarning)
     EXPECT_TRUE(AreSameSurfaces(surface.Of(image), requested.Filter->GetOutput()));
     EXPECT_EQ(surface.Warnings.Get(), "");
   }
-}
-
-TEST(BlankedVoxels, DuplicatesAreNotBlanked)
-{
-  QuietSurface requested;
-  requested.Of(BallImage(Size, Size, Size));
+  // Duplicates are not blanked.
   QuietSurface surface;
-  EXPECT_TRUE(AreSameSurfaces(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)),
-    requested.Filter->GetOutput()));
+  ExpectSphere(surface.Of(BallBlanked(Right, vtkDataSetAttributes::DUPLICATEPOINT)), BallCentre,
+    BallRadius, 0.2);
 }

@@ -138,16 +138,12 @@ struct IrregularSurface
   IrregularSurface()
   {
     // Nearby spheres, for merges, cuts and splits.
-    for (const double x : { 19., 34., 50., 66., 81. })
-    {
-      for (const double y : { 19., 34., 50., 66., 81. })
+    ForVoxels({ 5, 5, 5 },
+      [this](int i, int j, int k)
       {
-        for (const double z : { 19., 34., 50., 66., 81. })
-        {
-          this->State.Mesh.Append(DividedIcosahedron({ x, y, z }, 6.8, 1.7));
-        }
-      }
-    }
+        const Point centre = { 19. + 15.5 * i, 19. + 15.5 * j, 19. + 15.5 * k };
+        this->State.Mesh.Append(DividedIcosahedron(centre, 6.8, 1.7));
+      });
     this->State.Sizing = SizingField(1.f);
     this->State.Margin = this->TheField.Margin();
     this->State.Reset(Vector(-2, -2, -2), Vector(112, 112, 112));

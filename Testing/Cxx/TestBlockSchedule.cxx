@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/BlockSchedule.h"
+#include "Core/Image/VoxelNumbers.h"
 #include "ThreadTestTools.h"
 
 #include <cstdlib>
@@ -52,19 +53,15 @@ bool Always(std::size_t)
 /** Cells of a grid. Pairs with a common corner are neighbours with a probability. */
 Neighbours GridOf(const std::array<int, 3>& size, double probability, std::mt19937& random)
 {
-  Neighbours neighbours(static_cast<std::size_t>(size[0] * size[1] * size[2]));
+  const VoxelNumbers numbers(size);
+  Neighbours neighbours(static_cast<std::size_t>(numbers.Count()));
   std::uniform_real_distribution<double> chance(0., 1.);
-  const auto ijkOf = [&size](int item)
-  {
-    const int row = item / size[0];
-    return std::array<int, 3>{ item % size[0], row % size[1], row / size[1] };
-  };
   for (int a = 0; a < static_cast<int>(neighbours.size()); ++a)
   {
     for (int b = a + 1; b < static_cast<int>(neighbours.size()); ++b)
     {
-      const std::array<int, 3> p = ijkOf(a);
-      const std::array<int, 3> q = ijkOf(b);
+      const std::array<int, 3> p = numbers.IjkOf(a);
+      const std::array<int, 3> q = numbers.IjkOf(b);
       if (std::abs(p[0] - q[0]) <= 1 && std::abs(p[1] - q[1]) <= 1 && std::abs(p[2] - q[2]) <= 1 &&
         chance(random) < probability)
       {
@@ -74,18 +71,6 @@ Neighbours GridOf(const std::array<int, 3>& size, double probability, std::mt199
     }
   }
   return neighbours;
-}
-
-std::vector<int> Shuffled(int n, std::mt19937& random)
-{
-  std::vector<int> order = InOrder(n);
-  std::shuffle(order.begin(), order.end(), random);
-  return order;
-}
-
-BlockSchedule ScheduleOf(const std::vector<int>& order, const Neighbours& neighbours)
-{
-  return BlockSchedule(order, [&neighbours](int item) { return neighbours[item]; });
 }
 
 /** Records block passes from all threads and tests their order. */
@@ -111,14 +96,11 @@ public:
       this->Check(this->Begun[other] == this->Ended[other], item, "concurrent with a neighbour");
       this->Check((this->Ended[other] == 1) == (this->Rank[other] < rank), item, "out of order");
     }
-    ++this->Running;
-    this->MostRunning = std::max(this->MostRunning, this->Running);
   }
   void End(int item)
   {
     const std::lock_guard<std::mutex> lock(this->Mutex);
     ++this->Ended[item];
-    --this->Running;
   }
 
   /** Return the first error; empty: none. */
@@ -128,7 +110,6 @@ public:
       std::all_of(this->Ended.begin(), this->Ended.end(), [](int passes) { return passes == 1; });
     return this->First.empty() && !areAllDone ? "incomplete" : this->First;
   }
-  int MaximumConcurrency() const { return this->MostRunning; }
 
 private:
   void Check(bool isValid, int item, const char* error)
@@ -143,8 +124,6 @@ private:
   std::vector<std::size_t> Rank;
   std::vector<int> Begun; ///< number of passes
   std::vector<int> Ended;
-  int Running = 0;
-  int MostRunning = 0;
   std::string First;
   std::mutex Mutex;
 };
@@ -163,74 +142,23 @@ TEST(BlockSchedule, RunsEachBlockOnceAndNeverWithNeighbours)
       const std::array<int, 3> size = { length(), length(), length() };
       const int n = size[0] * size[1] * size[2];
       const Neighbours neighbours = GridOf(size, grid % 3 == 0 ? 1. : 0.6, random);
-      const std::vector<int> order = Shuffled(n, random);
+      std::vector<int> order = InOrder(n);
+      std::shuffle(order.begin(), order.end(), random);
       std::vector<int> delays(static_cast<std::size_t>(n));
       std::generate(
         delays.begin(), delays.end(), [&random] { return static_cast<int>(random() % 200); });
       PassRecorder recorder(order, neighbours);
-      const bool areAllDone =
-        ScheduleOf(order, neighbours)
-          .Run(
-            executor,
-            [&](int item)
-            {
-              recorder.Begin(item);
-              std::this_thread::sleep_for(std::chrono::microseconds(delays[item]));
-              recorder.End(item);
-            },
-            Always);
-      EXPECT_TRUE(areAllDone);
-      EXPECT_EQ(recorder.Error(), "");
-      EXPECT_LE(recorder.MaximumConcurrency(), threads);
-    }
-  }
-}
-
-TEST(BlockSchedule, IsIndependentOfThreadCount)
-{
-  // The result of a block depends on its neighbours.
-  std::mt19937 random(4);
-  const Neighbours neighbours = GridOf({ 7, 6, 5 }, 0.8, random);
-  const std::vector<int> order = Shuffled(7 * 6 * 5, random);
-  const BlockSchedule schedule = ScheduleOf(order, neighbours);
-  const auto madeBy = [&](Executor& executor)
-  {
-    std::vector<std::uint64_t> values(order.size(), 1);
-    schedule.Run(
-      executor,
-      [&](int item)
+      const BlockSchedule schedule(order, [&neighbours](int item) { return neighbours[item]; });
+      const auto process = [&](int item)
       {
-        for (const int other : neighbours[item])
-        {
-          values[item] = values[item] * 6364136223846793005ull + values[other];
-        }
-      },
-      Always);
-    return values;
-  };
-  Executor thread;
-  const std::vector<std::uint64_t> expected = madeBy(thread);
-  for (const int threads : { 2, 3, 7 })
-  {
-    DelayedThreads executor(threads, 17u, 50, 4);
-    for (int time = 0; time < 5; ++time)
-    {
-      EXPECT_EQ(madeBy(executor), expected) << threads << " threads";
+        recorder.Begin(item);
+        std::this_thread::sleep_for(std::chrono::microseconds(delays[item]));
+        recorder.End(item);
+      };
+      EXPECT_TRUE(schedule.Run(executor, process, Always));
+      EXPECT_EQ(recorder.Error(), "");
     }
   }
-}
-
-TEST(BlockSchedule, PreservesOrderOnOneThread)
-{
-  std::mt19937 random(5);
-  const Neighbours neighbours = GridOf({ 5, 4, 3 }, 0.7, random);
-  const std::vector<int> order = Shuffled(60, random);
-  Executor thread;
-  std::vector<int> done;
-  EXPECT_TRUE(ScheduleOf(order, neighbours)
-                .Run(
-                  thread, [&done](int item) { done.push_back(item); }, Always));
-  EXPECT_EQ(done, order);
 }
 
 TEST(BlockSchedule, WaitsOnlyForNeighbours)
@@ -258,45 +186,28 @@ TEST(BlockSchedule, WaitsOnlyForNeighbours)
 TEST(BlockSchedule, RethrowsExceptions)
 {
   constexpr int n = 5000; // more than are completed before the exception
-  const BlockSchedule chain = ChainOf(n);
-  const BlockSchedule independent = Independent(n);
-  Executor sequential;
-  Executor three(3);
-  Executor five(5);
-  for (const BlockSchedule* schedule : { &chain, &independent })
+  for (const BlockSchedule& schedule : { ChainOf(n), Independent(n) })
   {
-    for (Executor* executor : std::initializer_list<Executor*>{ &sequential, &three, &five })
+    for (const int threads : { 1, 3, 5 })
     {
-      for (const int bad : { 0, 20 })
+      Executor executor(threads);
+      std::atomic<int> begun{ 0 };
+      std::atomic<int> running{ 0 };
+      const auto process = [&](int item)
       {
-        std::atomic<int> begun{ 0 };
-        std::atomic<int> running{ 0 };
-        try
+        ++begun;
+        ++running;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+        --running;
+        if (item == 20)
         {
-          schedule->Run(
-            *executor,
-            [&](int item)
-            {
-              ++begun;
-              ++running;
-              std::this_thread::sleep_for(std::chrono::microseconds(500));
-              --running;
-              if (item == bad)
-              {
-                throw std::runtime_error("bad " + std::to_string(item));
-              }
-            },
-            Always);
-          FAIL() << "no exception";
+          throw std::out_of_range("bad");
         }
-        catch (const std::runtime_error& error)
-        {
-          EXPECT_EQ(error.what(), "bad " + std::to_string(bad));
-        }
-        EXPECT_EQ(running, 0) << "all threads have finished";
-        EXPECT_GT(begun, bad);
-        EXPECT_LT(begun, n) << "others stop";
-      }
+      };
+      EXPECT_THROW(schedule.Run(executor, process, Always), std::out_of_range);
+      EXPECT_EQ(running, 0) << "all threads have finished";
+      EXPECT_GT(begun, 20);
+      EXPECT_LT(begun, n) << "others stop";
     }
   }
 }
@@ -346,28 +257,6 @@ TEST(BlockSchedule, CompletesNestedLoopsAfterException)
                  Always),
     std::runtime_error);
   EXPECT_EQ(done, 400);
-}
-
-TEST(BlockSchedule, CancelsAfterRequestedBlock)
-{
-  const BlockSchedule schedule = Independent(50);
-  Executor thread;
-  for (const std::size_t last : { 1, 7, 49 })
-  {
-    std::size_t passes = 0;
-    std::vector<std::size_t> queries;
-    EXPECT_FALSE(schedule.Run(
-      thread, [&passes](int) { ++passes; },
-      [&](std::size_t done)
-      {
-        queries.push_back(done);
-        return done != last;
-      }));
-    EXPECT_EQ(passes, last);
-    std::vector<std::size_t> each(last);
-    std::iota(each.begin(), each.end(), std::size_t(1));
-    EXPECT_EQ(queries, each) << "one query after each block";
-  }
 }
 
 TEST(BlockSchedule, CancelsOnSeveralThreads)

@@ -90,14 +90,8 @@ TEST(Contact, StopsSmoothing)
     stage.State.Active[Facing::Right] = 0;
     stage.All.erase(stage.All.begin() + Facing::Right);
     stage.Relax(true, contact ? stage.Pairs() : std::vector<Proximity::ClosePair>());
-    if (contact)
-    {
-      EXPECT_NEAR(stage.State.Velocity[Facing::Left].X, 0, 1e-5);
-    }
-    else
-    {
-      EXPECT_GT(stage.State.Velocity[Facing::Left].X, 0.1);
-    }
+    const float speed = stage.State.Velocity[Facing::Left].X;
+    EXPECT_TRUE(contact ? std::abs(speed) < 1e-5f : speed > 0.1f) << speed;
   }
 }
 
@@ -191,9 +185,10 @@ TEST_F(Freezing, FreezesAfterThreeMotionlessIterations)
 
 TEST_F(Freezing, KeepsMovingVertexAndNeighboursActive)
 {
-  for (int i = 0; i < 10; ++i)
+  // Steps of delta / 100 accumulate.
+  for (int i = 0; i < 20; ++i)
   {
-    this->Iterate(this->Actors.OutwardAt(Mover) * 0.05f);
+    this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);
   }
   EXPECT_TRUE(this->IsActive(Mover));
   for (int w : this->Actors.All)
@@ -218,14 +213,4 @@ TEST_F(Freezing, MotionActivatesMotionlessNeighbours)
     this->Iterate();
     EXPECT_TRUE(this->IsActive(this->Neighbour)) << "the count of motionless iterations restarts";
   }
-}
-
-TEST_F(Freezing, KeepsSlowlyMovingVertexActive)
-{
-  // Steps of delta / 100 accumulate.
-  for (int i = 0; i < 20; ++i)
-  {
-    this->Iterate(this->Actors.OutwardAt(Mover) * 0.01f);
-  }
-  EXPECT_TRUE(this->IsActive(Mover));
 }

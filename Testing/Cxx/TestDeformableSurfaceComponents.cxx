@@ -4,18 +4,11 @@
 
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
-#include <vtkPoints.h>
-#include <vtkSphereSource.h>
 
 using namespace volumic;
 
 namespace
 {
-double BallVolume(double radius)
-{
-  return 4.0 / 3.0 * vtkMath::Pi() * std::pow(radius, 3);
-}
-
 /**
  * A hollow ball (radii 12 and 8) about (16, 16, 16) that holds a ball of radius 4, and beside it a
  * ball of radius 6 about (38, 16, 16).
@@ -47,11 +40,7 @@ protected:
   {
     this->Filter->Update();
     vtkPolyData* surface = this->Filter->GetOutput();
-    if (!surface->GetFieldData()->HasArray("NumberOfComponents"))
-    {
-      ADD_FAILURE() << "no output";
-      return {};
-    }
+    EXPECT_TRUE(surface->GetFieldData()->HasArray("NumberOfComponents"));
     const int n = static_cast<int>(FieldOf(surface, "NumberOfComponents"));
     std::vector<double> volumes;
     double sum = 0;
@@ -112,10 +101,10 @@ protected:
   }
 
   const vtkSmartPointer<vtkDeformableSurface> Filter = FilterOf(HollowBallAndBall());
-  const double Outside = BallVolume(12);
-  const double Cavity = -BallVolume(8);
-  const double Beside = BallVolume(6);
-  const double Inner = BallVolume(4);
+  const double Outside = VolumeOfBall(12);
+  const double Cavity = -VolumeOfBall(8);
+  const double Beside = VolumeOfBall(6);
+  const double Inner = VolumeOfBall(4);
 };
 }
 
@@ -145,17 +134,6 @@ TEST_F(DeformableSurfaceComponents, CavitiesNameTheirOwner)
   EXPECT_EQ(owners(), std::vector<double>{ 0 });
 }
 
-TEST_F(DeformableSurfaceComponents, LargeComponentsAreSelectedByVolume)
-{
-  this->Filter->SetKeepComponentsToLargeComponents();
-  this->Filter->SetMinimumComponentVolume(600.0);
-  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside });
-  this->Filter->SetMinimumComponentVolume(2000.0);
-  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
-  this->Filter->SetMinimumComponentVolume(200.0);
-  ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity, this->Beside, this->Inner });
-}
-
 TEST_F(DeformableSurfaceComponents, PointsSelectTheInnermostEnclosingComponent)
 {
   this->Filter->SetKeepComponentsToComponentsAtPoints();
@@ -167,6 +145,10 @@ TEST_F(DeformableSurfaceComponents, PointsSelectTheInnermostEnclosingComponent)
   ExpectVolumes(this->Volumes(), { this->Outside, this->Cavity });
   this->SetSeed(38, 16, 23);
   ExpectVolumes(this->Volumes(), { this->Beside });
+  this->SetSeed(28.5, 27.0, 27.0);
+  const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
+  EXPECT_TRUE(this->Volumes().empty());
+  EXPECT_TRUE(Has(warnings.Get(), "surface of level 0 is empty: Keep Components"));
 }
 
 TEST_F(DeformableSurfaceComponents, SeedsRemoveMarkedComponents)
@@ -191,25 +173,13 @@ TEST_F(DeformableSurfaceComponents, ReportsLinesAsSeeds)
   line->GetLines()->InsertNextCell(2, ids);
   this->Filter->SetKeepComponentsToComponentsAtPoints();
   this->Filter->SetInitialSurfaceData(line);
-  for (const bool startsFromSeeds : { false, true })
-  {
-    this->Filter->SetInitialization(startsFromSeeds ? vtkDeformableSurface::Seeds : 0);
-    this->Filter->SetKeepComponents(startsFromSeeds ? 0 : 2);
-    ExpectErrorOf(this->Filter, { "Input port 1 (Initial Surface): ", "no vertices" });
-  }
+  ExpectErrorOf(this->Filter, { "Input port 1 (Initial Surface): ", "no vertices" });
+  this->Filter->SetKeepComponentsToAllComponents();
+  this->Filter->SetInitializationToSeeds();
+  ExpectErrorOf(this->Filter, { "Input port 1 (Initial Surface): ", "no vertices" });
 }
 
-TEST_F(DeformableSurfaceComponents, WarnsIfNoComponentIsAtThePoint)
-{
-  this->Filter->SetKeepComponentsToComponentsAtPoints();
-  this->SetSeed(28.5, 27.0, 27.0);
-  MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
-  EXPECT_TRUE(this->Volumes().empty());
-  EXPECT_TRUE(warnings.Has("surface of level 0 is empty: Keep Components")) << warnings.Get();
-  EXPECT_FALSE(warnings.Has("level 1")) << "once, for the finest level: " << warnings.Get();
-}
-
-TEST_F(DeformableSurfaceComponents, SizesAndPositionsAreInWorldUnits)
+TEST_F(DeformableSurfaceComponents, SelectsByVolumesAndPositionsInWorldUnits)
 {
   auto image = HollowBallAndBall();
   image->SetSpacing(0.5, -0.5, 1.5);
@@ -223,13 +193,6 @@ TEST_F(DeformableSurfaceComponents, SizesAndPositionsAreInWorldUnits)
   this->Filter->SetMinimumComponentVolume(voxel * 600.0);
   ExpectVolumes(
     this->Volumes(), { voxel * this->Outside, voxel * this->Cavity, voxel * this->Beside });
-}
-
-TEST_F(DeformableSurfaceComponents, ReportsInvalidSelections)
-{
-  this->Filter->SetKeepComponents(5);
-  ExpectErrorOf(this->Filter, { "Keep Components is 5" });
-  this->Filter->SetKeepComponentsToLargeComponents();
-  this->Filter->SetMinimumComponentVolume(-1.0);
-  ExpectErrorOf(this->Filter, { "Minimum Component Volume is -1" });
+  this->Filter->SetMinimumComponentVolume(voxel * 2000.0);
+  ExpectVolumes(this->Volumes(), { voxel * this->Outside, voxel * this->Cavity });
 }

@@ -4,7 +4,6 @@
 
 #include <vtkCellArray.h>
 #include <vtkExecutive.h>
-#include <vtkImageCast.h>
 #include <vtkReverseSense.h>
 #include <vtkTable.h>
 
@@ -12,12 +11,6 @@ using namespace volumic;
 
 namespace
 {
-vtkSmartPointer<vtkImageData> OneVoxel(double value)
-{
-  return ImageOf({ 40, 40, 40 },
-    [value](int i, int j, int k) { return i == 20 && j == 20 && k == 20 ? value : 0.0; });
-}
-
 /** A valid filter. Each test makes one setting or input invalid, and expects an error. */
 class DeformableSurfaceErrors : public ::testing::Test
 {
@@ -41,23 +34,10 @@ protected:
 };
 }
 
-TEST_F(DeformableSurfaceErrors, NoInput)
-{
-  this->Filter->RemoveAllInputConnections(0);
-  const MessagesOf errors(this->Filter->GetExecutive());
-  this->Filter->Update();
-  EXPECT_TRUE(Has(errors.Get(), "Input port 0"));
-}
-
 TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
 {
-  struct Case
-  {
-    Choice Spoil;
-    std::vector<std::string> Parts;
-  };
   const double infinite = std::numeric_limits<double>::infinity();
-  std::vector<Case> cases = {
+  std::vector<ErrorCase<vtkDeformableSurface>> cases = {
     { [](vtkDeformableSurface* f) { f->SetIsoValue(std::nan("")); },
       { "Iso Value is not set", "range from 0 to 100" } },
     { [](vtkDeformableSurface* f) { f->SetInputDataObject(RandomImage(64, 64, 1)); },
@@ -73,6 +53,20 @@ TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
       { "Finest Level is 2", "Set it to 0 to 1, the coarsest level" } },
     { [](vtkDeformableSurface* f) { f->SetFinestLevel(-2); },
       { "Finest Level is -2", "or to -1 for a subdivision" } },
+    { [](vtkDeformableSurface* f)
+      {
+        const auto image = ImageOf({ 40, 40, 40 }, [](int, int, int) { return 0.0; });
+        FillBox(image, { 20, 20, 20 }, { 21, 21, 21 });
+        f->SetInputDataObject(image);
+        f->SetCoarsestLevel(2);
+      },
+      { "coarsest level, 2", "above Iso Value 50", "Set Coarsest Level to 0" } },
+    { [](vtkDeformableSurface* f) { f->SetKeepComponents(5); }, { "Keep Components is 5" } },
+    { [](vtkDeformableSurface* f)
+      { f->SetKeepComponentsToLargeComponents(), f->SetMinimumComponentVolume(-1.0); },
+      { "Minimum Component Volume is -1" } },
+    { [](vtkDeformableSurface* f) { f->SetTimeLimit(-1.0); }, { "Time Limit is -1" } },
+    { [](vtkDeformableSurface* f) { f->SetTimeLimit(std::nan("")); }, { "Time Limit is nan" } },
     { [](vtkDeformableSurface* f) { f->SetInitialization(4); },
       { "Initialization is 4", "0 to 3" } },
     { [](vtkDeformableSurface* f) { f->SetBorderValue(2); }, { "Border Value is 2", "0 to 1" } },
@@ -112,81 +106,36 @@ TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
       { "Iso Value is", iso == 100.0 ? "at an end of" : "outside", "the range",
         "between 0 and 100" } });
   }
-  for (const Case& test : cases)
+  for (const auto& test : cases)
   {
     SCOPED_TRACE(test.Parts.front());
     ExpectErrorOf(FilterOf(BallImage(32, 32, 32), test.Spoil), test.Parts);
   }
 }
 
-TEST_F(DeformableSurfaceErrors, ObjectThatVanishesAtTheCoarsestLevel)
-{
-  this->Filter->SetInputDataObject(OneVoxel(100.0));
-  this->Filter->SetCoarsestLevel(2);
-  this->ExpectError({ "coarsest level, 2", "above Iso Value 50", "Set Coarsest Level to 0" });
-}
-
-TEST_F(DeformableSurfaceErrors, WarnsOfAVanishedSurface)
-{
-  // Too thin for a surface, even at level 0.
-  this->Filter->SetInputDataObject(OneVoxel(51.0));
-  this->Filter->SetRecovery(vtkDeformableSurface::NoRecovery);
-  this->Filter->SetCoarsestLevel(0);
-  const std::string warnings = MessagesOfUpdate(this->Filter, vtkCommand::WarningEvent);
-  EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfPoints(), 0);
-  EXPECT_TRUE(Has(warnings, "The surface has vanished at level 0"));
-  EXPECT_TRUE(Has(warnings, "Check Iso Value and Object Is Bright"));
-  EXPECT_FALSE(Has(warnings, "Set CoarsestLevel"));
-}
-
-TEST_F(DeformableSurfaceErrors, ReportsPyramidErrorsOnce)
-{
-  const auto image = BallImage(32, 32, 32);
-  image->GetPointData()->GetScalars()->SetComponent(5, 0, std::nan(""));
-  this->Filter->SetInputDataObject(image);
-  this->Filter->NaNIsBackgroundOff();
-  this->ExpectError({ "Input port 0: array 'Voxels' has 1 NaN", "(5, 0, 0)" });
-}
-
-TEST_F(DeformableSurfaceErrors, NotFiniteVoxelsInABlock)
+TEST_F(DeformableSurfaceErrors, NaNVoxelsInABlock)
 {
   const auto blocks = this->Pyramid();
-  vtkImageData* level1 = Level(blocks, 1);
-  Voxels(level1)->SetComponent(2, 0, std::nan(""));
+  Voxels(Level(blocks, 1))->SetComponent(2, 0, std::nan(""));
   this->Filter->SetInputDataObject(blocks);
   this->Filter->NaNIsBackgroundOff();
   this->ExpectError({ "Input port 0: level 1", "NaN", "(2, 0, 0)" });
-  this->Filter->NaNIsBackgroundOn();
-  Voxels(level1)->SetComponent(2, 0, std::numeric_limits<double>::infinity());
-  level1->Modified();
-  this->ExpectError({ "Input port 0: level 1", "1 infinite voxel", "(2, 0, 0)" });
 }
 
 TEST_F(DeformableSurfaceErrors, VoxelsTooLargeForSinglePrecision)
 {
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputData(BallImage(32, 32, 32));
-  cast->SetOutputScalarTypeToDouble();
-  cast->Update();
-  vtkDataArray* voxels = cast->GetOutput()->GetPointData()->GetScalars();
   for (const double size : { 1e300, -1e300, 2e38 })
   {
-    voxels->SetComponent((16 * 32 + 16) * 32 + 16, 0, size);
-    voxels->Modified();
-    cast->GetOutput()->Modified();
-    this->Filter->SetInputDataObject(cast->GetOutput());
+    const auto image = RandomImage(32, 32, 32, VTK_DOUBLE);
+    FillBox(image, { 16, 16, 16 }, { 17, 17, 17 }, size);
+    this->Filter->SetInputDataObject(image);
     this->ExpectError({ "Input port 0: level", "array", "absolute values", "Scale the image" });
   }
 }
 
 TEST_F(DeformableSurfaceErrors, ReportsBlocksThatAreNotAPyramid)
 {
-  struct Spoil
-  {
-    std::function<void(vtkMultiBlockDataSet*)> What;
-    std::vector<std::string> Parts;
-  };
-  const std::vector<Spoil> spoils = {
+  const std::vector<ErrorCase<vtkMultiBlockDataSet>> cases = {
     { [](vtkMultiBlockDataSet* b) { b->SetNumberOfBlocks(0); }, { "has no blocks" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, nullptr); }, { "block 1 is empty" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, vtkNew<vtkPolyData>()); },
@@ -201,15 +150,24 @@ TEST_F(DeformableSurfaceErrors, ReportsBlocksThatAreNotAPyramid)
         Level(b, 1)->SetDirectionMatrix(turned);
       },
       { "block 1", "direction matrix differs" } },
+    { [](vtkMultiBlockDataSet* b)
+      { Voxels(Level(b, 1))->SetComponent(2, 0, std::numeric_limits<double>::infinity()); },
+      { "Input port 0: level 1", "1 infinite voxel", "(2, 0, 0)" } },
+    { [](vtkMultiBlockDataSet* b)
+      {
+        Level(b, 0)->AllocateScalars(VTK_FLOAT, 3);
+        Voxels(Level(b, 0))->SetName("Field");
+      },
+      { "Input port 0: level 0: array 'Field' has 3 components", "Selected Component" } },
     { [](vtkMultiBlockDataSet* b) { b->SetBlock(1, b->GetBlock(0)); },
       { "block 1", "32 x 32 x 32 voxels, not fewer than block 0 with 32 x 32 x 32" } },
   };
-  for (const Spoil& spoil : spoils)
+  for (const auto& test : cases)
   {
     const auto blocks = this->Pyramid();
-    spoil.What(blocks);
+    test.Spoil(blocks);
     this->Filter->SetInputDataObject(blocks);
-    this->ExpectError(spoil.Parts);
+    this->ExpectError(test.Parts);
   }
 }
 

@@ -22,6 +22,15 @@ vtkSmartPointer<vtkImageData> TwoBalls()
   return image;
 }
 
+/** A ball of radius 16 about the middle, and two rods beside it, too thin for the coarse levels. */
+vtkSmartPointer<vtkImageData> BallAndRods()
+{
+  const auto image = BallImage(64, 64, 64, 0.25);
+  FillBox(image, { 6, 6, 8 }, { 9, 9, 56 });
+  FillBox(image, { 55, 55, 8 }, { 58, 58, 56 });
+  return image;
+}
+
 const std::array<double, 3> InLeft = { 112, 12, 13 };
 const std::array<double, 3> InRight = { 138, 13, 12 };
 
@@ -68,18 +77,6 @@ TEST_F(DeformableSurfacePositions, SeedsGrowWhereTheyAreSet)
   EXPECT_GT(this->Filter->GetOutput()->GetBounds()[0], 125);
 }
 
-namespace
-{
-/** A ball of radius 16 about the middle, and two rods beside it, too thin for the coarse levels. */
-vtkSmartPointer<vtkImageData> BallAndRods()
-{
-  const auto image = BallImage(64, 64, 64, 0.25);
-  FillBox(image, { 6, 6, 8 }, { 9, 9, 56 });
-  FillBox(image, { 55, 55, 8 }, { 58, 58, 56 });
-  return image;
-}
-}
-
 TEST_F(DeformableSurfacePositions, SeedsAreTestedAtLevel0)
 {
   const double ofRod = 3 * 3 * 48;
@@ -95,10 +92,6 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedAtLevel0)
   const int last = static_cast<int>(this->Filter->GetLevels()->GetNumberOfBlocks()) - 1;
   ASSERT_LT(start, last);
   EXPECT_FALSE(this->Filter->GetLevels()->GetBlock(static_cast<unsigned int>(start) + 1));
-  for (int level = 0; level <= start; ++level)
-  {
-    EXPECT_LT(SurfaceAt(this->Filter, level)->GetBounds()[1], 12) << level;
-  }
   // The result does not depend on the level at which the run starts.
   const double volume = FieldOf(surface, "Volume");
   for (int level = 0; level <= start; ++level)
@@ -106,6 +99,7 @@ TEST_F(DeformableSurfacePositions, SeedsAreTestedAtLevel0)
     SCOPED_TRACE(level);
     this->Filter->SetCoarsestLevel(level);
     EXPECT_EQ(this->Components(), 1);
+    EXPECT_LT(SurfaceAt(this->Filter, level)->GetBounds()[1], 12);
     EXPECT_NEAR(FieldOf(surface, "Volume") / volume, 1.0, 0.03);
     EXPECT_EQ(FieldOf(surface, "StartLevel"), level);
   }

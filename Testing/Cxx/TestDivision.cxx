@@ -9,6 +9,22 @@ using namespace volumic;
 
 namespace
 {
+/** Double cone along z. Vertices 0 and 1 are the tips, the others follow in order. */
+IndexedSurface DoubleCone(int sides)
+{
+  IndexedSurface cone;
+  cone.Points = { { 0, 0, 5 }, { 0, 0, -5 } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    const int next = 2 + (i + 1) % sides;
+    cone.Points.push_back({ 5 * std::cos(a), 5 * std::sin(a), 0 });
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  return cone;
+}
+
 void LimitValence(KeptEdges& kept)
 {
   for (auto full = kept.FindOverfull(); !full.empty(); full = kept.FindOverfull())
@@ -44,8 +60,7 @@ TEST(Division, YieldsValidMeshForAnyKeptEdges)
   std::mt19937 engine(7);
   for (int tenths : { 1, 5, 9 })
   {
-    SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 3);
-    const SurfaceMesh copy = mesh;
+    const SurfaceMesh copy = MakeSphere({ 0, 0, 0 }, 10, 3);
     KeptEdges kept(copy);
     int edges = 0;
     for (int v = 0; v < copy.Size(); ++v)
@@ -61,11 +76,10 @@ TEST(Division, YieldsValidMeshForAnyKeptEdges)
       }
     }
     LimitValence(kept);
-    mesh = Divide(copy, &kept);
-    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    const SurfaceMesh mesh = Divide(copy, &kept);
+    ExpectValidMesh(mesh.ToIndexed());
     EXPECT_EQ(mesh.CountEulerCharacteristic(), 2);
     EXPECT_GE(mesh.Size(), copy.Size() + copy.NumberOfFaces() + edges);
-    EXPECT_EQ(CountSelfIntersections(mesh.ToIndexed()), 0);
   }
 }
 
@@ -73,9 +87,7 @@ TEST(Division, LimitsValenceWithKeptEdges)
 {
   // Both tips of a double cone have 15 neighbours. Every other edge kept would give 22.
   constexpr int sides = Ring::Capacity;
-  SurfaceMesh mesh;
-  mesh.Append(MakeDoubleCone({ 0, 0, 0 }, 5, 5, sides));
-  const SurfaceMesh copy = mesh;
+  const SurfaceMesh copy = MeshOf(DoubleCone(sides));
   KeptEdges kept(copy);
   for (int i = 0; i < sides; i += 2)
   {
@@ -83,7 +95,7 @@ TEST(Division, LimitsValenceWithKeptEdges)
   }
   EXPECT_EQ(kept.FindOverfull(), std::vector<int>({ 0 }));
   LimitValence(kept);
-  mesh = Divide(copy, &kept);
+  const SurfaceMesh mesh = Divide(copy, &kept);
   EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
   EXPECT_EQ(mesh.Rings[0].Count, sides);
 }
@@ -96,9 +108,7 @@ namespace
  */
 SurfaceResult DivideWithin(const IndexedSurface& given, double unit)
 {
-  SurfaceMesh plain;
-  plain.Append(given);
-  EXPECT_GT(CountSelfIntersections(Divide(plain).ToIndexed()), 0)
+  EXPECT_GT(CountSelfIntersections(Divide(MeshOf(given)).ToIndexed()), 0)
     << "the test requires an intersection";
 
   const TestVolume volume = BallVolume(16, 4.);
@@ -121,53 +131,34 @@ TEST(Division, PreservesGapBetweenComponents)
 {
   // The division cuts off the edges of an icosahedron. A small cavity inside has a corner just
   // below the midpoint of such an edge. A plain division would make the surfaces intersect.
-  const auto make = []
+  IndexedSurface given = Icosahedron({ 8, 8, 8 }, 2.37);
+  VectorD up;
+  for (const int corner : { given.Triangles[0][0], given.Triangles[0][1] })
   {
-    IndexedSurface surface = Icosahedron({ 0, 0, 0 }, 2.37);
-    const Triangle t = surface.Triangles[0];
-    VectorD up;
-    for (int corner : { t[0], t[1] })
-    {
-      const Point& p = surface.Points[corner];
-      up += VectorD(p[0], p[1], p[2]);
-    }
-    up = Normalized(up);
-    IndexedSurface inner = Icosahedron({ 0, 0, 0 }, 0.96);
-    // Rotate it so that its first corner points up.
-    const Point& c = inner.Points[0];
-    const VectorD corner = Normalized(VectorD(c[0], c[1], c[2]));
-    const VectorD half = Normalized(corner + up);
-    for (Point& point : inner.Points)
-    {
-      const VectorD p(point[0], point[1], point[2]);
-      const VectorD turned = half * (2 * Dot(half, p)) - p + up * 0.94;
-      point = { turned.X, turned.Y, turned.Z };
-    }
-    for (const Triangle& triangle : inner.Triangles)
-    {
-      surface.Triangles.push_back({ 12 + triangle[0], 12 + triangle[2], 12 + triangle[1] });
-    }
-    surface.Points.insert(surface.Points.end(), inner.Points.begin(), inner.Points.end());
-    for (Point& point : surface.Points)
-    {
-      point = { 8 + point[0], 8 + point[1], 8 + point[2] };
-    }
-    return surface;
-  };
-  const IndexedSurface given = make();
+    const Point& p = given.Points[corner];
+    up += VectorD(p[0] - 8, p[1] - 8, p[2] - 8);
+  }
+  up = Normalized(up);
+  IndexedSurface inner = Icosahedron({ 0, 0, 0 }, 0.96);
+  // Rotate it so that its first corner points up.
+  const Point& c = inner.Points[0];
+  const VectorD half = Normalized(Normalized(VectorD(c[0], c[1], c[2])) + up);
+  for (Point& point : inner.Points)
+  {
+    const VectorD p(point[0], point[1], point[2]);
+    const VectorD turned = half * (2 * Dot(half, p)) - p + up * 0.94;
+    point = { 8 + turned.X, 8 + turned.Y, 8 + turned.Z };
+  }
+  AddSurface(given, InsideOut(inner));
   ASSERT_EQ(CountSelfIntersections(given), 0);
   // One division, and two in a row. The first of these leaves edges longer than those of the last
   // level.
   for (double unit : { 1. / std::sqrt(3.), 1. / 3. })
   {
     const SurfaceResult divided = DivideWithin(given, unit);
-    EXPECT_EQ(CountSelfIntersections(divided), 0);
-    SurfaceMesh mesh;
-    mesh.Append(divided);
-    EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+    ExpectValidMesh(divided);
     EXPECT_EQ(ComputeFeatures(divided).Components.size(), 2u);
-    const std::vector<double> lengths = EdgeLengths(divided);
-    EXPECT_LE(*std::max_element(lengths.begin(), lengths.end()), 2.5001 * divided.Delta);
+    ExpectEdgesWithin(divided, 0., 2.5001 * divided.Delta);
   }
 }
 
@@ -176,18 +167,10 @@ TEST(Division, SearchRadiusCoversLongEdges)
   // A body with a groove, which the division fills, and a blade in the groove. They intersect at
   // the midpoints of edges, far from all corners in the unit of the last of five divisions.
   IndexedSurface given;
-  given.Points = { { -2.1, 0, 0.6 }, { 2.1, 0, 0.6 }, { 0, -1.2, 0 }, { 0, 1.2, 0 }, { 0, 0, -0.7 },
-    { 0, -0.87, 0.1 }, { 0, 0.87, 0.1 }, { 0.51, 0, 0.253 }, { -0.51, 0, 0.253 } };
+  given.Points = { { 5.9, 8, 8.6 }, { 10.1, 8, 8.6 }, { 8, 6.8, 8 }, { 8, 9.2, 8 }, { 8, 8, 7.3 },
+    { 8, 7.13, 8.1 }, { 8, 8.87, 8.1 }, { 8.51, 8, 8.253 }, { 7.49, 8, 8.253 } };
   given.Triangles = { { 0, 2, 3 }, { 1, 3, 2 }, { 0, 4, 2 }, { 2, 4, 1 }, { 1, 4, 3 }, { 3, 4, 0 },
     { 5, 6, 7 }, { 6, 5, 8 }, { 5, 7, 8 }, { 6, 8, 7 } };
-  for (Point& p : given.Points)
-  {
-    p = { p[0] + 8, p[1] + 8, p[2] + 8 };
-  }
-  const SurfaceFeatures features = ComputeFeatures(given);
-  ASSERT_EQ(features.Components.size(), 2u);
-  ASSERT_GT(features.Components[0].Volume, 0);
-  ASSERT_GT(features.Components[1].Volume, 0);
   ASSERT_EQ(CountSelfIntersections(given), 0);
   const SurfaceResult divided = DivideWithin(given, std::pow(3., -2.5));
   EXPECT_EQ(CountSelfIntersections(divided), 0);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-// Forces, measured as velocities after one step from rest.
+// Forces, measured as velocities after one step from rest, maximum displacement, and smoothing.
 #include "DynamicsTestTools.h"
 
 using namespace volumic;
@@ -153,24 +153,6 @@ TEST(Forces, GradientForceIsBoundedAndIgnoresIsoValue)
   }
 }
 
-TEST(Forces, EdgeAttractionPullsToRidge)
-{
-  for (const double radius : { 7., 9. })
-  {
-    Stage stage(radius);
-    const TestVolume map = MakeVolume(33,
-      [](double x, double y, double z)
-      {
-        const double r = Distance(x, y, z, 16, 16, 16) - 8;
-        return std::exp(-0.5 * r * r);
-      });
-    stage.Volume.Image.Edges = map.Values.data();
-    stage.Options.IsopotentialWeight = 0;
-    stage.Options.EdgeAttractionWeight = 2;
-    EXPECT_GT(stage.Push() * (8 - radius) * stage.MeanSpeedOutward(), 0.2);
-  }
-}
-
 TEST(Forces, EdgeAndGradientForcesPointInwardBeyondMargin)
 {
   const TestVolume map = MakeVolume(33, [](double x, double, double) { return x < 16 ? 0. : 1.; });
@@ -196,4 +178,55 @@ TEST(Forces, EdgeAndGradientForcesPointInwardBeyondMargin)
     }
     EXPECT_GT(beyond, 100);
   }
+}
+
+TEST(Motion, RespectsMaximumStep)
+{
+  // Contacts can increase velocities after the step has been chosen.
+  for (const double largest : { 0.5, 0.2 })
+  {
+    Stage stage(12.);
+    stage.Options.MaximumStep = largest;
+    const Field field(stage.Volume.Image, stage.Options, stage.Threads);
+    const Dynamics dynamics(field, stage.Options, stage.Threads);
+    Dynamics::Step step;
+    dynamics.Accelerate(stage.State, stage.All, {}, step, OnThisThread());
+    stage.State.Velocity[3] *= 100.f;
+    stage.State.Velocity[4] *= 0.1f;
+    const LargeVector<Vector> before = stage.State.Mesh.Position;
+    stage.State.PreviousPosition.Fill(Vector());
+    dynamics.Displace(stage.State, stage.All, step);
+    for (int v : stage.All)
+    {
+      const Vector motion = stage.State.Mesh.Position[v] - before[v];
+      const double speed = Length(stage.State.Velocity[v]);
+      EXPECT_NEAR(Length(motion), std::min(speed * static_cast<double>(step.Time), largest), 1e-5);
+      EXPECT_GT(Dot(motion, stage.State.Velocity[v]), 0);
+      EXPECT_NEAR(stage.State.Displacement[v], Length(motion), 1e-5);
+      EXPECT_EQ(Length(stage.State.PreviousPosition[v] - before[v]), 0);
+    }
+  }
+}
+
+TEST(Smoothing, MovesTangentiallyToBarycentre)
+{
+  Stage stage(8.);
+  for (int v : stage.All)
+  {
+    const Vector shift(0.1f * (v % 3 - 1), 0.07f * (v % 5 - 2), 0.05f * (v % 4 - 1));
+    const Vector n = stage.OutwardAt(v);
+    stage.State.Mesh.Position[v] += shift - n * Dot(shift, n);
+  }
+  stage.UpdateShape();
+  stage.Relax(false);
+  double along = 0;
+  for (int v : stage.All)
+  {
+    const Vector& move = stage.State.Velocity[v];
+    const Vector n = stage.State.Normal[v].Axis();
+    EXPECT_NEAR(Dot(move, n), 0, 1e-5) << "tangential";
+    along += Dot(move, stage.State.Laplacian[v]);
+    EXPECT_LE(Length(move), 0.15 + 1e-5) << "small enough to avoid intersections";
+  }
+  EXPECT_GT(along / static_cast<double>(stage.All.size()), 0.002);
 }

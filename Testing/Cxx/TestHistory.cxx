@@ -4,6 +4,8 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
+#include <chrono>
+
 using namespace volumic;
 
 namespace
@@ -13,6 +15,14 @@ long Sum(const std::vector<HistoryRow>& rows, Value HistoryRow::*column)
 {
   return std::accumulate(rows.begin(), rows.end(), 0L,
     [column](long sum, const HistoryRow& row) { return sum + static_cast<long>(row.*column); });
+}
+
+void ExpectDescribes(const HistoryRow& row, const SurfaceResult& surface)
+{
+  const SurfaceFeatures features = ComputeFeatures(surface);
+  EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
+  EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
+  EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
 }
 }
 
@@ -46,17 +56,17 @@ TEST(History, RowsDescribeStateAfterSweep)
   {
     ++sweeps;
     const SurfaceResult surface = evolution.Result();
-    const SurfaceFeatures features = ComputeFeatures(surface);
     const HistoryRow& row = evolution.History().back();
     SCOPED_TRACE("sweep " + std::to_string(sweeps));
     EXPECT_EQ(row.Iteration, 5 * sweeps);
-    EXPECT_EQ(row.Vertices, static_cast<int>(surface.Points.size()));
-    EXPECT_EQ(row.EulerCharacteristic, features.EulerCharacteristic);
-    EXPECT_EQ(row.Components, static_cast<int>(features.Components.size()));
-    const std::vector<double> lengths = EdgeLengths(surface);
-    const double sum = std::accumulate(lengths.begin(), lengths.end(), 0.);
-    EXPECT_NEAR(row.MeanEdgeLength, sum / static_cast<double>(lengths.size()), 1e-4);
+    ExpectDescribes(row, surface);
+    double sum = 0;
+    VisitEdges(surface, [&sum](int, int, double length) { sum += length; });
+    EXPECT_NEAR(row.MeanEdgeLength, sum / (3. * surface.Triangles.size()), 1e-4);
     EXPECT_TRUE(row.TimeStep > 0 || row.ActiveVertices == 0);
+    const auto active = std::count(surface.Motionless.begin(), surface.Motionless.end(), 0);
+    EXPECT_LE(active, row.ActiveVertices) << "others have frozen in the last iteration";
+    EXPECT_GE(active, 0.3 * row.ActiveVertices);
     EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
   };
   evolution.StartEnclosing(volume.Image, 0);
@@ -66,39 +76,6 @@ TEST(History, RowsDescribeStateAfterSweep)
   ASSERT_GT(rows.size(), 10u);
   EXPECT_EQ(rows.back().ActiveVertices, 0) << "a level ends without active vertices";
   EXPECT_GT(rows[rows.size() - 6].ActiveVertices, 0) << "at the end of the sweep before";
-}
-
-TEST(History, ArrivedVerticesFreezeIfEnabled)
-{
-  const TestVolume volume = BallVolume(32, 10);
-  for (const bool freeze : { true, false })
-  {
-    SurfaceOptions options = IsoHalf();
-    options.FreezeMotionlessVertices = freeze;
-    TestEvolution evolution(options, Threads, Silent);
-    const auto vertices = [&evolution]() { return evolution.Result().Points.size(); };
-    evolution.StartEnclosing(volume.Image, 0);
-    const std::size_t first = vertices();
-    evolution.Run();
-    const std::vector<HistoryRow>& rows = evolution.History();
-    EXPECT_EQ(rows.front().ActiveVertices, static_cast<int>(first));
-    EXPECT_GT(rows[rows.size() / 4].ActiveVertices, 0.99 * rows[rows.size() / 4].Vertices);
-    const SurfaceResult surface = evolution.Result();
-    const double motionless =
-      std::accumulate(surface.Motionless.begin(), surface.Motionless.end(), 0.) /
-      static_cast<double>(vertices());
-    const double active = 1. * rows.back().ActiveVertices / rows.back().Vertices;
-    if (freeze)
-    {
-      EXPECT_LT(active, 0.5);
-      EXPECT_GT(motionless, 0.5);
-    }
-    else
-    {
-      EXPECT_GT(active, 0.99);
-      EXPECT_LT(motionless, 0.02);
-    }
-  }
 }
 
 TEST(History, EditCountsExplainTopology)
@@ -163,4 +140,99 @@ TEST(History, LevelConvergesWithItsVolume)
     iterations.push_back(volumes.size());
   }
   EXPECT_LT(iterations.front(), iterations.back());
+}
+
+namespace
+{
+double Known(double x, double y, double z)
+{
+  // Two balls that need a cut, and a torus that needs a merge.
+  const double first = Distance(x, y, z, 12, 12, 20) - 6.5;
+  const double second = Distance(x, y, z, 12, 29, 20) - 6.5;
+  const double q = Distance(x, y, 0, 28, 20, 0) - 6.;
+  return std::min({ first, second, std::sqrt(q * q + (z - 20) * (z - 20)) - 2.6 });
+}
+
+LevelPair SceneWithMissedBalls()
+{
+  const auto fine = [](double x, double y, double z)
+  {
+    return std::min({ Known(x, y, z), Distance(x, y, z, 20, 20, 5.5) - 2.6,
+      Distance(x, y, z, 20, 20, 34) - 2.6 });
+  };
+  return LevelPair(40, fine, Known);
+}
+
+/** @return the number of rows of the coarse level */
+std::size_t RunBothLevels(TestEvolution& evolution, const LevelPair& scene)
+{
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  const std::size_t coarseRows = evolution.History().size();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  return coarseRows;
+}
+}
+
+TEST(EvolutionHistory, MostVerticesConvergeImmediatelyAfterDivision)
+{
+  // The divided surface is moved along the finer field first, unless other forces act.
+  const auto ball = [](double r)
+  { return [r](double x, double y, double z) { return Distance(x, y, z, 16, 16, 16) - r; }; };
+  for (const bool alone : { true, false })
+  {
+    const LevelPair scene(32, ball(11.), ball(10.));
+    SurfaceOptions options = IsoHalf();
+    options.SnapToIsoValue = alone;
+    TestEvolution evolution(options, Threads, Silent);
+    const std::size_t coarseRows = RunBothLevels(evolution, scene);
+    const std::vector<HistoryRow>& rows = evolution.History();
+    const double visits = std::accumulate(rows.begin() + static_cast<std::ptrdiff_t>(coarseRows),
+      rows.end(), 0., [](double sum, const HistoryRow& row) { return sum + row.ActiveVertices; });
+    const double ofVertex = visits / rows.back().Vertices;
+    EXPECT_TRUE(alone ? ofVertex < 1. : ofVertex > 4.) << ofVertex;
+  }
+}
+
+TEST(EvolutionHistory, LastRowDescribesSurfaceOfLevel)
+{
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
+  std::size_t last = 0; // vertices after the last iteration
+  evolution.AfterSweep = [&] { last = evolution.Result().Points.size(); };
+  RunBothLevels(evolution, SceneWithMissedBalls());
+  const SurfaceResult surface = evolution.Result();
+  ASSERT_NE(last, surface.Points.size()) << "otherwise the test is meaningless";
+  ExpectDescribes(evolution.History().back(), surface);
+}
+
+TEST(EvolutionHistory, SecondsAddUpToElapsedTime)
+{
+  const LevelPair scene = SceneWithMissedBalls();
+  TestEvolution evolution(IsoHalf(), Threads, Silent);
+  using std::chrono::steady_clock;
+  const auto start = steady_clock::now() - std::chrono::seconds(1000);
+  const auto elapsed = [start]
+  { return std::chrono::duration<double>(steady_clock::now() - start).count(); };
+  evolution.Converged.History.StartClock(start);
+  evolution.StartEnclosing(scene.Coarse.Image, 1);
+  evolution.Run();
+  evolution.Converged.History.EndLevel();
+  const double coarse = elapsed();
+  evolution.Divide(scene.Fine.Image, 0);
+  evolution.Run();
+  const double most = elapsed();
+  evolution.Converged.History.EndLevel();
+  const double all = elapsed();
+  double sums[2] = { 0., 0. };
+  for (const HistoryRow& row : evolution.History())
+  {
+    EXPECT_GT(row.Seconds, 0.);
+    sums[row.Level] += row.Seconds;
+  }
+  EXPECT_LE(sums[1], coarse);
+  EXPECT_GE(sums[0] + sums[1], most) << "no time is missing";
+  EXPECT_LE(sums[0] + sums[1], all);
+  EXPECT_GE(evolution.History().front().Seconds, 1000.);
+  EXPECT_LT(evolution.History()[1].Seconds, 100.) << "only the first row contains the time before";
 }

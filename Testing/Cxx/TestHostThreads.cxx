@@ -13,8 +13,10 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <optional>
 #include <thread>
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 using namespace volumic;
 
@@ -42,28 +44,6 @@ std::size_t ThreadsAtWork(int numberOfThreads)
   threads.For(200, 1, work);
   return ids.size();
 }
-
-/** Set an environment variable, and restore it at the end of the scope. */
-class Variable
-{
-public:
-  Variable(const char* name, const char* value) : Name(name)
-  {
-    const char* before = std::getenv(name);
-    this->Before = before ? std::optional<std::string>(before) : std::nullopt;
-    setenv(name, value, 1);
-  }
-  ~Variable()
-  {
-    this->Before ? setenv(this->Name, this->Before->c_str(), 1) : unsetenv(this->Name);
-  }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
-private:
-  const char* Name;
-  std::optional<std::string> Before;
-};
 }
 
 TEST(HostThreads, AreIndependentOfTheVtkBackend)
@@ -86,9 +66,10 @@ TEST(HostThreads, AreIndependentOfTheVtkBackend)
     EXPECT_EQ(HostThreads(1 << 20).NumberOfThreads(), NumberOfProcessors());
     const int all = HostThreads(0).NumberOfThreads();
     EXPECT_EQ(ThreadsAtWork(0), static_cast<std::size_t>(all));
-    const Variable most("VTK_SMP_MAX_THREADS", "1");
+    setenv("VTK_SMP_MAX_THREADS", "1", 1);
     EXPECT_EQ(ThreadsAtWork(0), 1u);
     EXPECT_EQ(ThreadsAtWork(2), 2u) << "an explicit number takes precedence";
+    unsetenv("VTK_SMP_MAX_THREADS");
     EXPECT_EQ(std::string(vtkSMPTools::GetBackend()), backend) << "VTK is left as it is";
   }
   vtkSMPTools::SetBackend(host.c_str());
@@ -104,6 +85,20 @@ TEST(HostThreads, AreLimitedByVtk)
   vtkSMPTools::Initialize(1);
   EXPECT_EQ(HostThreads(0).NumberOfThreads(), 1);
   vtkSMPTools::Initialize(before);
+}
+
+TEST(HostThreadsDeathTest, AreAsManyAsTheSystemAllows)
+{
+  const auto work = []
+  {
+    // A user without other processes; root has no limit.
+    const rlimit most = { 1, 1 };
+    const bool isLimited =
+      (geteuid() != 0 || setuid(54321) == 0) && setrlimit(RLIMIT_NPROC, &most) == 0;
+    std::exit(isLimited && ThreadsAtWork(2) == 1 && ThreadsAtWork(0) == 1 ? 0 : 1);
+  };
+  testing::FLAGS_gtest_death_test_style = "threadsafe";
+  EXPECT_EXIT(work(), testing::ExitedWithCode(0), "");
 }
 
 TEST(Processors, AreLimitedByTheCgroupQuota)

@@ -56,8 +56,7 @@ TEST(ImageMargin, ReplicatedObjectClosesAtMargin)
     volume.Image.Step[0] = step;
     SurfaceOptions options = Replicating();
     options.MaximumNumberOfIterations = 300;
-    Monitor silent;
-    TestEvolution evolution(options, Threads, silent);
+    TestEvolution evolution(options, Threads, Silent);
     evolution.StartSeeds(volume.Image, 0, { { 8 * step, 8, 8 } });
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const double beyond = Beyond(evolution.Result(), volume.Image);

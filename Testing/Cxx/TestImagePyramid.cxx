@@ -1,55 +1,34 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "FilterTestTools.h"
+#include "SameOutputs.h"
 
 #include <vtkBitArray.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
-#include <vtkFloatArray.h>
-#include <vtkInformation.h>
+#include <vtkImageCast.h>
+#include <vtkImageInterpolator.h>
 #include <vtkMatrix3x3.h>
 #include <vtkSOADataArrayTemplate.h>
-#include <vtkStringArray.h>
 
 using namespace volumic;
 
-namespace
-{
-bool AreSameVoxels(vtkImageData* a, vtkImageData* b)
-{
-  vtkDataArray* u = Voxels(a);
-  vtkDataArray* v = Voxels(b);
-  if (u->GetNumberOfValues() != v->GetNumberOfValues())
-  {
-    return false;
-  }
-  for (vtkIdType i = 0; i < u->GetNumberOfValues(); ++i)
-  {
-    if (u->GetComponent(i, 0) != v->GetComponent(i, 0))
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
-std::string StopReason(vtkMultiBlockDataSet* pyramid)
-{
-  auto* reason =
-    vtkStringArray::SafeDownCast(pyramid->GetFieldData()->GetAbstractArray("StopReason"));
-  return reason ? reason->GetValue(0) : "";
-}
-}
-
-TEST(ImagePyramid, BlocksAreNamedAndDescribed)
+TEST(ImagePyramid, LevelsAreNamedAndCoverTheImage)
 {
   const auto image = RandomImage(64, 50, 40, VTK_SHORT);
+  image->SetExtent(5, 68, -7, 42, 100, 139);
+  image->SetOrigin(10, 20, 30);
   image->SetSpacing(0.5, 0.75, 1.0);
+  const double direction[9] = { 0, -1, 0, 0.6, 0, -0.8, 0.8, 0, 0.6 };
+  image->SetDirectionMatrix(direction);
+  double first[3];
+  image->TransformIndexToPhysicalPoint(5, -7, 100, first);
   const auto filter = PyramidOf(image);
   vtkMultiBlockDataSet* pyramid = filter->GetOutput();
   ASSERT_EQ(pyramid->GetNumberOfBlocks(), 3u);
+  EXPECT_EQ(StopReason(pyramid), "complete");
   for (int h = 0; h < 3; ++h)
   {
+    SCOPED_TRACE(h);
     vtkImageData* level = Level(pyramid, h);
     EXPECT_STREQ(pyramid->GetMetaData(h)->Get(vtkCompositeDataSet::NAME()),
       ("Level " + std::to_string(h)).c_str());
@@ -57,43 +36,10 @@ TEST(ImagePyramid, BlocksAreNamedAndDescribed)
     EXPECT_NEAR(UnitOf(level), 0.5 * std::pow(3.0, h / 2.0), 1e-12);
     EXPECT_STREQ(Voxels(level)->GetName(), "Voxels");
     EXPECT_EQ(Voxels(level)->GetDataType(), h == 0 ? VTK_SHORT : VTK_FLOAT);
-  }
-  EXPECT_EQ(StopReason(pyramid), "complete");
-}
-
-TEST(ImagePyramid, Level0SharesTheInput)
-{
-  const auto image = RandomImage(30, 30, 30);
-  vtkNew<vtkFloatArray> other;
-  other->SetName("Other");
-  other->SetNumberOfTuples(image->GetNumberOfPoints());
-  image->GetPointData()->AddArray(other);
-  const auto filter = PyramidOf(image, 2);
-  vtkImageData* level0 = Level(filter->GetOutput(), 0);
-  EXPECT_EQ(Voxels(level0), Voxels(image)) << "the very array, not a copy";
-  EXPECT_TRUE(level0->GetPointData()->HasArray("Other"));
-  EXPECT_FALSE(image->GetFieldData()->HasArray("Level")) << "the input itself is left alone";
-  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetPointData()->GetNumberOfArrays(), 1);
-}
-
-TEST(ImagePyramid, KeepsThePositionOfTheFirstVoxelAndThePhysicalSize)
-{
-  const auto image = RandomImage(40, 30, 20);
-  image->SetExtent(5, 44, -7, 22, 100, 119);
-  image->SetOrigin(10, 20, 30);
-  image->SetSpacing(0.5, 2.0, 1.5);
-  const double direction[9] = { 0, -1, 0, 0.6, 0, -0.8, 0.8, 0, 0.6 };
-  image->SetDirectionMatrix(direction);
-  double first[3];
-  image->TransformIndexToPhysicalPoint(5, -7, 100, first);
-  const auto filter = PyramidOf(image, 3);
-  for (unsigned int h = 1; h < 3; ++h)
-  {
-    vtkImageData* level = Level(filter->GetOutput(), h);
     for (int axis = 0; axis < 3; ++axis)
     {
-      EXPECT_EQ(level->GetExtent()[2 * axis], 0);
-      EXPECT_NEAR(level->GetOrigin()[axis], first[axis], 1e-12);
+      EXPECT_EQ(level->GetExtent()[2 * axis], h == 0 ? image->GetExtent()[2 * axis] : 0);
+      EXPECT_NEAR(level->GetOrigin()[axis], h == 0 ? image->GetOrigin()[axis] : first[axis], 1e-12);
       EXPECT_NEAR(level->GetSpacing()[axis] * level->GetDimensions()[axis],
         image->GetSpacing()[axis] * image->GetDimensions()[axis], 1e-12);
     }
@@ -102,6 +48,31 @@ TEST(ImagePyramid, KeepsThePositionOfTheFirstVoxelAndThePhysicalSize)
       EXPECT_EQ(level->GetDirectionMatrix()->GetData()[i], direction[i]);
     }
   }
+}
+
+TEST(ImagePyramid, Level0SharesTheInputAndOthersHaveTheSelectedArray)
+{
+  const auto image = RandomImage(30, 30, 30);
+  vtkNew<vtkDoubleArray> other;
+  other->SetName("Other");
+  other->SetNumberOfTuples(image->GetNumberOfPoints());
+  other->FillComponent(0, 5.0);
+  image->GetPointData()->AddArray(other);
+  const auto filter = PyramidOf(image, 2);
+  vtkImageData* level0 = Level(filter->GetOutput(), 0);
+  EXPECT_EQ(Voxels(level0), Voxels(image)) << "the very array, not a copy";
+  EXPECT_TRUE(level0->GetPointData()->HasArray("Other"));
+  EXPECT_FALSE(image->GetFieldData()->HasArray("Level")) << "the input itself is left alone";
+  EXPECT_EQ(Level(filter->GetOutput(), 1)->GetPointData()->GetNumberOfArrays(), 1);
+
+  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Other");
+  filter->Update();
+  for (const unsigned int h : { 0u, 1u })
+  {
+    EXPECT_STREQ(Voxels(Level(filter->GetOutput(), h))->GetName(), "Other");
+  }
+  EXPECT_NEAR(Voxels(Level(filter->GetOutput(), 1))->GetComponent(99, 0), 5.0, 1e-12);
+  EXPECT_STREQ(Voxels(image)->GetName(), "Voxels") << "the input's active scalars stay";
 }
 
 TEST(ImagePyramid, IsBitIdenticalForAnyNumberOfThreads)
@@ -115,58 +86,29 @@ TEST(ImagePyramid, IsBitIdenticalForAnyNumberOfThreads)
     ASSERT_EQ(other->GetOutput()->GetNumberOfBlocks(), filter->GetOutput()->GetNumberOfBlocks());
     for (unsigned int h = 1; h < other->GetOutput()->GetNumberOfBlocks(); ++h)
     {
-      EXPECT_TRUE(AreSameVoxels(Level(other->GetOutput(), h), Level(filter->GetOutput(), h)))
-        << threads << " threads, level " << h;
+      SCOPED_TRACE(::testing::Message() << threads << " threads, level " << h);
+      ExpectSameArrays(Level(other->GetOutput(), h)->GetPointData(),
+        Level(filter->GetOutput(), h)->GetPointData());
     }
   }
 }
 
-TEST(ImagePyramid, UsesTheSelectedArray)
-{
-  const auto image = RandomImage(30, 30, 30);
-  vtkNew<vtkDoubleArray> other;
-  other->SetName("Other");
-  other->SetNumberOfTuples(image->GetNumberOfPoints());
-  other->FillComponent(0, 5.0);
-  image->GetPointData()->AddArray(other);
-  vtkNew<vtkImagePyramid> filter;
-  filter->SetInputData(image);
-  filter->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Other");
-  filter->Update();
-  for (unsigned int h = 0; h < filter->GetOutput()->GetNumberOfBlocks(); ++h)
-  {
-    EXPECT_STREQ(Voxels(Level(filter->GetOutput(), h))->GetName(), "Other");
-  }
-  EXPECT_NEAR(Voxels(Level(filter->GetOutput(), 1))->GetComponent(99, 0), 5.0, 1e-12);
-  EXPECT_STREQ(Voxels(image)->GetName(), "Voxels") << "the input's active scalars stay";
-}
-
 TEST(ImagePyramid, AcceptsOtherMemoryLayouts)
 {
-  const auto image = RandomImage(20, 20, 20);
+  const auto image = ImageOf(
+    { 20, 20, 20 }, [](int, int j, int) { return j < 10 ? 1.0 : 0.0; }, VTK_FLOAT, "Mask");
   const auto expected = PyramidOf(image, 2);
-  vtkNew<vtkSOADataArrayTemplate<float>> apart;
-  apart->DeepCopy(Voxels(image));
-  vtkNew<vtkImageData> other;
-  other->SetDimensions(20, 20, 20);
-  other->GetPointData()->SetScalars(apart);
-  EXPECT_TRUE(
-    AreSameVoxels(Level(PyramidOf(other, 2)->GetOutput(), 1), Level(expected->GetOutput(), 1)));
-
-  vtkNew<vtkBitArray> bits;
-  bits->SetNumberOfTuples(8000);
-  for (vtkIdType i = 0; i < 8000; ++i)
+  for (const vtkSmartPointer<vtkDataArray>& voxels :
+    { vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkSOADataArrayTemplate<float>>::New()),
+      vtkSmartPointer<vtkDataArray>(vtkSmartPointer<vtkBitArray>::New()) })
   {
-    bits->SetValue(i, i % 400 < 200 ? 1 : 0);
-    Voxels(image)->SetComponent(i, 0, i % 400 < 200 ? 1 : 0);
+    voxels->DeepCopy(Voxels(image));
+    vtkNew<vtkImageData> other;
+    other->SetDimensions(20, 20, 20);
+    other->GetPointData()->SetScalars(voxels);
+    ExpectSameArrays(Level(PyramidOf(other, 2)->GetOutput(), 1)->GetPointData(),
+      Level(expected->GetOutput(), 1)->GetPointData());
   }
-  vtkNew<vtkImageData> mask;
-  mask->SetDimensions(20, 20, 20);
-  mask->GetPointData()->SetScalars(bits);
-  Voxels(image)->Modified();
-  image->Modified();
-  EXPECT_TRUE(AreSameVoxels(
-    Level(PyramidOf(mask, 2)->GetOutput(), 1), Level(PyramidOf(image, 2)->GetOutput(), 1)));
 }
 
 TEST(ImagePyramid, CountsLevels)
@@ -192,48 +134,117 @@ TEST(ImagePyramid, CountsLevels)
   EXPECT_EQ(filter->CountLevels(0, 0, 0), 0) << "no image";
 }
 
-namespace
+TEST(ImagePyramid, ReportsProgressAndKeepsFinishedLevelsIfCancelled)
 {
-vtkSmartPointer<vtkImageData> LargeImage()
-{
-  return ImageOf(
-    { 256, 256, 256 }, [](int, int, int) { return 1.0; }, VTK_UNSIGNED_CHAR);
-}
-
-class ImagePyramidProgress : public ::testing::Test
-{
-protected:
-  /** Stops a run at a share of the work, if it is less than 1. */
-  void Run(double stopAt)
-  {
-    this->Listener.StopAt = stopAt;
-    this->Filter->SetInputData(LargeImage());
-    this->Filter->SetNumberOfLevels(3);
-    this->Filter->Update();
-  }
-
-  vtkNew<vtkImagePyramid> Filter;
-  ProgressListener Listener{ this->Filter };
-};
-}
-
-TEST_F(ImagePyramidProgress, GrowsWithinALevelAndNamesIt)
-{
-  this->Run(2.0);
-  EXPECT_TRUE(std::is_sorted(this->Listener.Shares.begin(), this->Listener.Shares.end()));
+  vtkNew<vtkImagePyramid> filter;
+  filter->SetInputData(ImageOf(
+    { 256, 256, 256 }, [](int, int, int) { return 1.0; }, VTK_UNSIGNED_CHAR));
+  filter->SetNumberOfLevels(3);
+  ProgressListener listener(filter);
+  filter->Update();
+  EXPECT_TRUE(std::is_sorted(listener.Shares.begin(), listener.Shares.end()));
   const auto inside = [](double share) { return share > 0.01 && share < 0.5; };
-  EXPECT_TRUE(std::any_of(this->Listener.Shares.begin(), this->Listener.Shares.end(), inside));
-  EXPECT_EQ(this->Listener.Shares.back(), 1.0);
-  EXPECT_TRUE(this->Listener.Texts.count("Level 1 of 2"));
-  EXPECT_TRUE(this->Listener.Texts.count("Level 2 of 2"));
-}
-
-TEST_F(ImagePyramidProgress, CancellingBetweenLevelsKeepsTheFinishedOnes)
-{
-  this->Run(0.83); // level 1 is 0.84 of the work
-  ASSERT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 2u);
-  EXPECT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
-  const double* range = Voxels(Level(this->Filter->GetOutput(), 1))->GetRange();
+  EXPECT_TRUE(std::any_of(listener.Shares.begin(), listener.Shares.end(), inside));
+  EXPECT_EQ(listener.Shares.back(), 1.0);
+  EXPECT_TRUE(listener.Texts.count("Level 1 of 2"));
+  EXPECT_TRUE(listener.Texts.count("Level 2 of 2"));
+  listener.StopAt = 0.83; // level 1 is 0.84 of the work
+  filter->Modified();
+  filter->Update();
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
+  EXPECT_EQ(StopReason(filter->GetOutput()), "cancelled");
+  const double* range = Voxels(Level(filter->GetOutput(), 1))->GetRange();
   EXPECT_NEAR(range[0], 1.0, 1e-6) << "what is handed over is finished";
   EXPECT_NEAR(range[1], 1.0, 1e-6);
+}
+
+namespace
+{
+/**
+ * Evaluate equation 5 at a position directly: the sum over 125 positions, each from 8 voxels.
+ * @param field V_h at positions in voxels: trilinear, outside the nearest voxel
+ */
+double DirectSum(vtkImageInterpolator* field, double unit, const double* spacing, const double* at)
+{
+  const double kernel[5] = { 1 / 16., 4 / 16., 6 / 16., 4 / 16., 1 / 16. };
+  double sum = 0.0;
+  ForBox({ -2, -2, -2 }, { 3, 3, 3 },
+    [&](int m, int n, int p)
+    {
+      const double position[3] = { (at[0] + m * unit) / spacing[0], (at[1] + n * unit) / spacing[1],
+        (at[2] + p * unit) / spacing[2] };
+      double value;
+      field->InterpolateIJK(position, &value);
+      sum += kernel[m + 2] * kernel[n + 2] * kernel[p + 2] * value;
+    });
+  return sum;
+}
+
+void ExpectDirectSums(vtkMultiBlockDataSet* pyramid, double tolerance)
+{
+  for (unsigned int h = 1; h < pyramid->GetNumberOfBlocks(); ++h)
+  {
+    vtkImageData* below = Level(pyramid, h - 1);
+    vtkImageData* level = Level(pyramid, h);
+    vtkNew<vtkImageCast> cast; // vtkImageInterpolator does not accept all types.
+    cast->SetInputData(below);
+    cast->SetOutputScalarTypeToDouble();
+    cast->Update();
+    vtkNew<vtkImageInterpolator> field;
+    field->Initialize(cast->GetOutput());
+    double worst = 0.0;
+    for (vtkIdType v = 0; v < level->GetNumberOfPoints(); ++v)
+    {
+      const double expected =
+        DirectSum(field, UnitOf(below), below->GetSpacing(), level->GetPoint(v));
+      worst = std::max(worst, std::abs(Voxels(level)->GetComponent(v, 0) - expected));
+    }
+    EXPECT_LE(worst, tolerance) << "level " << h;
+  }
+}
+}
+
+TEST(ImagePyramidAccuracy, EqualsTheDirectSumOver125Places)
+{
+  for (const auto& [factor, spacing] : std::map<double, std::array<double, 3>>{
+         { std::sqrt(3.0), { 1, 1, 1 } }, { 1.2, { 0.7, 0.9, 2.1 } }, { 1.9, { 3.0, 1.0, 1.1 } } })
+  {
+    SCOPED_TRACE(factor);
+    const auto image = RandomImage(23, 18, 15);
+    image->SetSpacing(spacing.data());
+    vtkNew<vtkImagePyramid> filter;
+    filter->SetInputData(image);
+    filter->SetReductionFactor(factor);
+    filter->SetNumberOfLevels(3);
+    filter->Update();
+    ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 3u);
+    ExpectDirectSums(filter->GetOutput(), 1e-5 * 100.0);
+  }
+}
+
+TEST(ImagePyramidAccuracy, Images2DWork)
+{
+  const auto image = RandomImage(90, 1, 70);
+  image->SetSpacing(1, 0.001, 1);
+  const auto filter = PyramidOf(image);
+  ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 4u);
+  const int* size = Level(filter->GetOutput(), 3)->GetDimensions();
+  EXPECT_EQ(size[0], 16);
+  EXPECT_EQ(size[1], 1);
+  EXPECT_EQ(size[2], 13);
+  ExpectDirectSums(filter->GetOutput(), 1e-3);
+}
+
+TEST(ImagePyramidAccuracy, AcceptsAllScalarTypes)
+{
+  for (const int type : { VTK_CHAR, VTK_SIGNED_CHAR, VTK_UNSIGNED_CHAR, VTK_SHORT,
+         VTK_UNSIGNED_SHORT, VTK_INT, VTK_UNSIGNED_INT, VTK_LONG, VTK_UNSIGNED_LONG, VTK_LONG_LONG,
+         VTK_UNSIGNED_LONG_LONG, VTK_ID_TYPE, VTK_FLOAT, VTK_DOUBLE })
+  {
+    SCOPED_TRACE(type);
+    const auto filter = PyramidOf(RandomImage(20, 20, 20, type), 2);
+    ASSERT_EQ(filter->GetOutput()->GetNumberOfBlocks(), 2u);
+    EXPECT_EQ(Voxels(Level(filter->GetOutput(), 0))->GetDataType(), type);
+    ExpectDirectSums(filter->GetOutput(), 1e-3);
+  }
 }

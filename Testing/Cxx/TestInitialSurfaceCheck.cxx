@@ -9,12 +9,6 @@ using namespace volumic;
 
 namespace
 {
-TestVolume Ball()
-{
-  return MakeVolume(40,
-    [](double x, double y, double z) { return Soft(Distance(x, y, z, 19.5, 19.5, 19.5) - 12.); });
-}
-
 /** Triangulated cylinder as of vtkCylinderSource: caps are fans, sides are slivers. */
 IndexedSurface Cylinder(double radius, double height, int sides)
 {
@@ -43,7 +37,7 @@ IndexedSurface Cylinder(double radius, double height, int sides)
 
 std::string ErrorMessageOf(const IndexedSurface& surface)
 {
-  const TestVolume volume = Ball();
+  const TestVolume volume = BallVolume(40, 12);
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   return volumic::ErrorMessageOf([&] { evolution.StartSurface(volume.Image, 0, surface); });
 }
@@ -51,7 +45,7 @@ std::string ErrorMessageOf(const IndexedSurface& surface)
 
 TEST(InitialSurfaceCheck, PreservesComponentsCavitiesAndTunnels)
 {
-  const TestVolume volume = Ball();
+  const TestVolume volume = BallVolume(40, 12);
   IndexedSurface given = MakeTorus({ 12, 12, 8 }, 7, 3, 9, 6);
   AddSurface(given, Cuboid({ 20, 20, 16 }, { 38, 38, 36 }));
   AddSurface(given, InsideOut(Cuboid({ 24, 24, 20 }, { 34, 34, 32 })));
@@ -69,7 +63,7 @@ TEST(InitialSurfaceCheck, PreservesComponentsCavitiesAndTunnels)
 
 TEST(InitialSurfaceCheck, PreservesValidMesh)
 {
-  const TestVolume volume = Ball();
+  const TestVolume volume = BallVolume(40, 12);
   TestEvolution first(IsoHalf(), Threads, Silent);
   first.StartEnclosing(volume.Image, 0);
   first.Run();

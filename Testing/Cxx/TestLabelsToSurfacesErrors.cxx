@@ -3,10 +3,6 @@
 #include "LabelImages.h"
 #include "SurfaceTestTools.h"
 
-#include <vtkDoubleArray.h>
-
-#include <new>
-
 using namespace volumic;
 
 namespace
@@ -20,12 +16,7 @@ protected:
   {
     this->Filter->SetInputData(Balls());
     this->Filter->ClearLabels();
-    this->Filter->SetBackgroundLabel(0);
-    this->Filter->SetSmoothing(2.);
     this->Filter->SetTimeLimit(0.);
-    this->Filter->SetMetric(1);
-    this->Filter->SetEdgeLength(0.);
-    this->Filter->SetFinestLevel(0);
     this->Filter->SetKeepComponents(0);
     this->Filter->SetMinimumComponentVolume(0.);
     this->Filter->Update();
@@ -35,14 +26,6 @@ protected:
   }
 
   static vtkSmartPointer<vtkImageData> Balls() { return LabelImageOf(34, 28, 28, TwoBalls); }
-
-  /** Return the field data `LostLabels`. */
-  std::string MissedLabels()
-  {
-    auto* labels = vtkStringArray::SafeDownCast(
-      this->Filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels"));
-    return labels ? labels->GetValue(0) : std::string();
-  }
 
   void ExpectError(const std::vector<std::string>& parts)
   {
@@ -92,14 +75,15 @@ TEST_F(LabelsToSurfacesErrors, ReportsImagesThatAreNotLabelMaps)
 
 TEST_F(LabelsToSurfacesErrors, ReportsTooManyLabels)
 {
-  this->Filter->SetInputData(LabelImageOf(
-    17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
-  this->ExpectError({ "4913 different values", "4096", "not a label map", "Volume to Surface" });
-  this->Filter->SetInputData(LabelImageOf(
-    17, 17, 17, [](int i, int j, int k) { return 1e10 + i + 17 * (j + 17 * k); }, VTK_LONG_LONG));
+  const auto manyFrom = [](double first, int type)
+  {
+    return LabelImageOf(
+      17, 17, 17, [first](int i, int j, int k) { return first + i + 17 * (j + 17 * k); }, type);
+  };
+  this->Filter->SetInputData(manyFrom(1e10, VTK_LONG_LONG));
   this->ExpectError({ "more than 4096 different values outside the range of int", "10000000000" });
-  this->Filter->SetInputData(LabelImageOf(
-    17, 17, 17, [](int i, int j, int k) { return i + 17 * (j + 17 * k); }, VTK_INT));
+  this->Filter->SetInputData(manyFrom(0., VTK_INT));
+  this->ExpectError({ "4913 different values", "4096", "not a label map", "Volume to Surface" });
   // Some of them can be selected.
   this->Filter->AddLabel(100);
   this->Filter->SetTimeLimit(1e-9); // not to mesh the others
@@ -161,6 +145,7 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetGradation, 0.2, 0.7, { "Gradation is 0.7" });
   expect(&Labels::SetEdgeLength, 0., -2., { "Edge Length is -2" });
   expect(&Labels::SetEdgeLength, 0., 1e-3, { "Edge Length is 0.001" });
+  expect(&Labels::SetTimeLimit, 0., -1., { "Time Limit is -1" });
   expect(&Labels::SetFinestLevel, 0, -2, { "Finest Level is -2" });
   expect(&Labels::SetKeepComponents, 0, 2, { "Keep Components is 2" });
   expect(&Labels::SetMinimumComponentVolume, 0., infinite, { "Minimum Component Volume is inf" });
@@ -169,42 +154,22 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
 TEST_F(LabelsToSurfacesErrors, ReportsAWrongNumberOfNames)
 {
   const auto image = Balls();
-  vtkNew<vtkIntArray> values;
-  values->SetName("LabelValues");
-  values->InsertNextValue(3);
-  vtkNew<vtkStringArray> names;
-  names->SetName("LabelNames");
-  image->GetFieldData()->AddArray(values);
-  image->GetFieldData()->AddArray(names);
+  AddNames(image);
   this->Filter->SetInputData(image);
-  this->ExpectError({ "Input port 0", "'LabelNames' has 0 entries", "'LabelValues' has 1" });
-  names->InsertNextValue("liver");
-  vtkNew<vtkDoubleArray> colors;
-  colors->SetName("LabelColors");
-  colors->InsertNextValue(1.);
-  image->GetFieldData()->AddArray(colors);
+  image->GetFieldData()->GetAbstractArray("LabelNames")->SetNumberOfTuples(0);
+  this->ExpectError({ "Input port 0", "'LabelNames' has 0 entries", "'LabelValues' has 2" });
+  AddNames(image);
+  image->GetFieldData()->GetArray("LabelColors")->SetNumberOfComponents(1);
+  image->GetFieldData()->GetArray("LabelColors")->SetNumberOfTuples(2);
   image->Modified();
   this->ExpectError({ "'LabelColors' has 1 components", "3" });
 }
 
 TEST_F(LabelsToSurfacesErrors, MemoryThatEndsWhileTheMeshIsMade)
 {
-  bool hasThrown = false;
-  const ProgressHook hook(this->Filter,
-    [&hasThrown](vtkAlgorithm*, const std::string& text, double)
-    {
-      if (!hasThrown && text == "Interfaces of the labels")
-      {
-        hasThrown = true;
-        throw std::bad_alloc();
-      }
-    });
-  MessagesOf errors(this->Filter);
-  this->Filter->Update();
-  EXPECT_TRUE(hasThrown);
-  EXPECT_TRUE(errors.Has("not enough memory for the surfaces")) << errors.Get();
+  ExpectErrorWithoutMemory(
+    this->Filter, "Interfaces of the labels", "not enough memory for the surfaces");
   EXPECT_EQ(this->Filter->GetOutput()->GetNumberOfBlocks(), 0u) << "no output half made";
-  EXPECT_EQ(this->Filter->GetErrorCode(), vtkErrorCode::UnknownError);
 }
 
 TEST_F(LabelsToSurfacesErrors, NamesLabelsRemovedByKeepComponents)
@@ -223,7 +188,10 @@ TEST_F(LabelsToSurfacesErrors, NamesLabelsRemovedByKeepComponents)
   EXPECT_EQ(BlockOf(this->Filter, 2)->GetNumberOfCells(), 0);
   EXPECT_EQ(StopReason(BlockOf(this->Filter, 2)), "vanished");
   EXPECT_EQ(FieldOf(BlockOf(this->Filter, 2), "WrongVoxels"), 1.);
-  EXPECT_TRUE(Has(this->MissedLabels(), "These labels have no surface: Label 9"));
-  EXPECT_TRUE(Has(this->MissedLabels(), "removed by Keep Components"));
+  auto* missed = vtkStringArray::SafeDownCast(
+    this->Filter->GetOutput()->GetFieldData()->GetAbstractArray("LostLabels"));
+  ASSERT_TRUE(missed);
+  EXPECT_TRUE(Has(missed->GetValue(0), "These labels have no surface: Label 9"));
+  EXPECT_TRUE(Has(missed->GetValue(0), "removed by Keep Components"));
   EXPECT_EQ(warnings.Get(), "") << "no warning for a small part beside balls";
 }

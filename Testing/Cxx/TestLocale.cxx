@@ -6,59 +6,32 @@
 #include "SurfaceTestTools.h"
 
 #include <clocale>
-#include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 
 using namespace volumic;
 
 namespace
 {
-/** Functions that set the locale. */
-enum class Method
-{
-  Global,  ///< std::locale::global, for streams
-  Numeric, ///< setlocale, for printf, std::to_string and strtod
-};
-
-/** Create the German LC_NUMERIC for the tests. @return false without localedef */
-bool MakeCommaForC()
-{
-  const std::filesystem::path folder =
-    std::filesystem::path(::testing::TempDir()) / "volumic-locales";
-  const std::filesystem::path made = folder / "de_DE.UTF-8";
-  // The C library caches missing locales: set the locale only after creating it.
-  setenv("LOCPATH", folder.c_str(), 1);
-  std::filesystem::create_directories(folder);
-  const std::string command =
-    "localedef -i de_DE -f UTF-8 '" + made.string() + "' > /dev/null 2>&1";
-  return std::filesystem::exists(made / "LC_NUMERIC") || std::system(command.c_str()) == 0;
-}
-
-/** Set the locale. @return whether printf writes 0,5 */
-bool SetCommaForC()
-{
-  static const bool isMade = MakeCommaForC();
-  char text[8] = "";
-  if (isMade && std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
-  {
-    std::snprintf(text, sizeof(text), "%.1f", 0.5);
-  }
-  return std::string(text) == "0,5";
-}
-
-class FilterLocale : public ::testing::TestWithParam<Method>
+/**
+ * Sets locales with a decimal comma: by std::locale::global for streams, and by setlocale for
+ * printf, std::to_string and strtod. Without localedef only the first.
+ */
+class FilterLocale : public ::testing::Test
 {
 protected:
   void SetUp() override
   {
-    if (GetParam() == Method::Global)
+    const std::string folder = ::testing::TempDir() + "volumic-locales";
+    std::filesystem::create_directories(folder);
+    setenv("LOCPATH", folder.c_str(), 1);
+    // The C library caches missing locales: set the locale only after creating it.
+    const std::string command =
+      "localedef -i de_DE -f UTF-8 '" + folder + "/de_DE.UTF-8' > /dev/null 2>&1";
+    if (std::filesystem::exists(folder + "/de_DE.UTF-8/LC_NUMERIC") ||
+      std::system(command.c_str()) == 0)
     {
-      this->Streams = std::make_unique<CommaLocale>();
-    }
-    else if (!SetCommaForC())
-    {
-      GTEST_SKIP() << "no locale with a decimal comma, and no localedef";
+      ASSERT_TRUE(std::setlocale(LC_NUMERIC, "de_DE.UTF-8"));
+      ASSERT_EQ(std::to_string(0.5), "0,500000");
     }
     this->Filter->SetInputDataObject(BallImage(40, 40, 40));
     this->Filter->SetIsoValue(50.0);
@@ -67,12 +40,12 @@ protected:
 
   void ExpectError(const std::string& part) { ExpectErrorOf(this->Filter, { part }); }
 
-  std::unique_ptr<CommaLocale> Streams;
+  const CommaLocale Streams;
   vtkNew<vtkDeformableSurface> Filter;
 };
 }
 
-TEST_P(FilterLocale, SettingsOutOfRange)
+TEST_F(FilterLocale, SettingsOutOfRange)
 {
   this->Filter->SetIsoValue(1234.5);
   this->ExpectError("Iso Value is 1234.5, outside the range of the voxels");
@@ -84,7 +57,7 @@ TEST_P(FilterLocale, SettingsOutOfRange)
   this->ExpectError("Tension Weight is 1e+300, it must lie in [0, 1000000]");
 }
 
-TEST_P(FilterLocale, PositionsOutsideImage)
+TEST_F(FilterLocale, PositionsOutsideImage)
 {
   const auto seeds = PointsAt({ { 20, 20, 1234.5 } });
   this->Filter->SetInitializationToSeeds();
@@ -95,7 +68,7 @@ TEST_P(FilterLocale, PositionsOutsideImage)
   this->ExpectError("point 0 (20, 20, 1234.5) is outside the image");
 }
 
-TEST_P(FilterLocale, Progress)
+TEST_F(FilterLocale, Progress)
 {
   ProgressListener listener(this->Filter);
   this->Filter->Update();
@@ -106,5 +79,3 @@ TEST_P(FilterLocale, Progress)
     EXPECT_FALSE(Has(text, "."));
   }
 }
-
-INSTANTIATE_TEST_SUITE_P(Methods, FilterLocale, ::testing::Values(Method::Global, Method::Numeric));

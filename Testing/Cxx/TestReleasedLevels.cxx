@@ -15,39 +15,35 @@ protected:
     this->Pyramid->SetInputData(BallImage(64, 60, 56, 0.3));
     this->Pyramid->SetNumberOfLevels(4);
     this->Pyramid->Update();
-    vtkMultiBlockDataSet* levels = this->Pyramid->GetOutput();
-    for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+    for (unsigned int h = 0; h < 4; ++h)
     {
-      this->Voxels.emplace_back(
-        vtkImageData::SafeDownCast(levels->GetBlock(h))->GetPointData()->GetScalars());
+      this->Levels.emplace_back(Voxels(Level(this->Pyramid->GetOutput(), h)));
     }
     this->Filter->SetInputConnection(this->Pyramid->GetOutputPort());
     this->Filter->SetIsoValue(50.0);
   }
 
-  /** Maximum number of levels with voxels while the surface iterates on each level. */
-  void Count(const std::string& text)
-  {
-    for (std::size_t level = 0; level < this->Voxels.size(); ++level)
-    {
-      if (text.find("Level " + std::to_string(level) + ", iteration") != std::string::npos)
-      {
-        this->Held[level] = std::max(this->Held[level], this->NumberHeld());
-      }
-    }
-  }
-
   int NumberHeld() const
   {
-    return static_cast<int>(std::count_if(this->Voxels.begin(), this->Voxels.end(),
+    return static_cast<int>(std::count_if(this->Levels.begin(), this->Levels.end(),
       [](const vtkWeakPointer<vtkDataArray>& voxels) { return voxels != nullptr; }));
   }
 
   vtkNew<vtkImagePyramid> Pyramid;
   vtkNew<vtkDeformableSurface> Filter;
   ProgressHook Hook{ this->Filter,
-    [this](vtkAlgorithm*, const std::string& text, double) { this->Count(text); } };
-  std::vector<vtkWeakPointer<vtkDataArray>> Voxels;
+    [this](vtkAlgorithm*, const std::string& text, double)
+    {
+      for (std::size_t level = 0; level < 4; ++level)
+      {
+        if (text.find("Level " + std::to_string(level) + ", iteration") != std::string::npos)
+        {
+          this->Held[level] = std::max(this->Held[level], this->NumberHeld());
+        }
+      }
+    } };
+  std::vector<vtkWeakPointer<vtkDataArray>> Levels; ///< their voxels
+  /** Maximum number of levels with voxels while the surface iterates on each level. */
   std::vector<int> Held = std::vector<int>(4, 0);
 };
 }

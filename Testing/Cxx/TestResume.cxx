@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
+
+// Runs that resume, and levels that are output one by one.
 #include "SameOutputs.h"
 #include "vtkVolumeToSurface.h"
 
@@ -15,9 +17,24 @@ vtkSmartPointer<vtkImageData> ResumeScene(int size = 64)
   return image;
 }
 
+/** Settings with more state to keep in a cancelled run than the defaults. */
+const Choice Choices[] = { [](vtkDeformableSurface*) {},
+  [](vtkDeformableSurface* f) { f->SetSnapshotInterval(7); },
+  [](vtkDeformableSurface* f) { f->SetRecovery(vtkDeformableSurface::NoRecovery); },
+  [](vtkDeformableSurface* f) { f->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); },
+  [](vtkDeformableSurface* f) { f->SetInitializationToSeeds(); },
+  [](vtkDeformableSurface* f) { f->SetKeepComponentsToLargestComponent(); },
+  [](vtkDeformableSurface* f) { f->SetMaximumNumberOfIterations(12); } };
+
+/** A ball whose preview is level 1 of 2, of 104 x 92 x 74 voxels. */
+vtkSmartPointer<vtkImageData> LargeBall()
+{
+  return BallImage(180, 160, 128);
+}
+
 /** Return the filter after a new run. */
 vtkSmartPointer<vtkDeformableSurface> FromTheStart(
-  vtkDataObject* input, int finest, const Choice& choose = {})
+  vtkDataObject* input, int finest, const Choice& choose = Choices[0])
 {
   const auto filter = FilterOf(input, choose);
   filter->SetFinestLevel(finest);
@@ -25,34 +42,44 @@ vtkSmartPointer<vtkDeformableSurface> FromTheStart(
   return filter;
 }
 
-/** Update. @return whether levels coarser than `level` have iterated, or the pyramid was computed
- */
+/** Update. @return whether levels coarser than `level` iterate, or the pyramid is computed */
 bool Reruns(vtkAlgorithm* filter, int level)
 {
-  ProgressListener listener(filter);
-  filter->Update();
-  filter->RemoveAllObservers();
-  return std::any_of(listener.Texts.begin(), listener.Texts.end(),
-    [level](const std::string& text)
+  bool isRerun = false;
+  const ProgressHook hook(filter,
+    [&](vtkAlgorithm*, const std::string& text, double)
     {
-      bool isRerun = bool(Has(text, "Building the pyramid"));
-      for (int coarse = level + 1; coarse < 9; ++coarse)
-      {
-        isRerun = isRerun || Has(text, "Level " + std::to_string(coarse) + ", iteration");
-      }
-      return isRerun;
+      isRerun = isRerun || Has(text, "Building the pyramid") ||
+        (Has(text, ", iteration") && std::stoi(text.substr(6)) > level); // behind "Level "
     });
+  filter->Update();
+  return isRerun;
 }
 
-/**
- * Update. @return whether no level iterates. The progress text of the last run remains.
- */
+/** Update. @return whether no level iterates. The progress text of the last run remains. */
 bool ShowsAtOnce(vtkAlgorithm* filter)
 {
-  ProgressListener listener(filter);
+  const ProgressListener listener(filter);
   filter->Update();
-  filter->RemoveAllObservers();
   return listener.Texts.size() <= 1;
+}
+
+vtkSmartPointer<vtkVolumeToSurface> ShowingFilterOf(vtkImageData* image)
+{
+  return FilterOf<vtkVolumeToSurface>(image, [](vtkVolumeToSurface* f) { f->ShowLevelsOn(); });
+}
+
+/** Return the levels that a caller of GetNeedsUpdate() gets, in order. */
+std::vector<int> LevelsShown(vtkDeformableSurface* filter)
+{
+  std::vector<int> levels;
+  filter->GetNeedsUpdate();
+  do
+  {
+    filter->Update();
+    levels.push_back(static_cast<int>(FieldOf(filter->GetOutput(), "Level")));
+  } while (filter->GetNeedsUpdate() && levels.size() < 9);
+  return levels;
 }
 
 class Resume : public ::testing::Test
@@ -65,11 +92,8 @@ protected:
 
 TEST_F(Resume, IsBitIdenticalToANewRun)
 {
-  std::vector<Choice> choices = ChoicesOfRuns();
-  choices.push_back([](vtkDeformableSurface* filter)
-    { filter->SetRecovery(vtkDeformableSurface::RecoverObjectsAndCavities); });
   int number = 0;
-  for (const Choice& choose : choices)
+  for (const Choice& choose : Choices)
   {
     SCOPED_TRACE(number++);
     const auto filter = FromTheStart(this->Image, 2, choose);
@@ -79,19 +103,10 @@ TEST_F(Resume, IsBitIdenticalToANewRun)
       EXPECT_FALSE(Reruns(filter, finest)) << "resumes from level " << finest + 1;
       ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
     }
-  }
-}
-
-TEST_F(Resume, OutputsConvergedLevelsAtOnce)
-{
-  this->Filter->SetSnapshotInterval(10);
-  const Choice same = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(10); };
-  this->Filter->Update();
-  for (const int finest : { 2, 1, 0 })
-  {
-    this->Filter->SetFinestLevel(finest);
-    EXPECT_TRUE(ShowsAtOnce(this->Filter)) << "no level iterates";
-    ExpectSameOutputs(this->Filter, FromTheStart(this->Image, finest, same));
+    // A converged level is output at once.
+    filter->SetFinestLevel(1);
+    EXPECT_TRUE(ShowsAtOnce(filter));
+    ExpectSameOutputs(filter, FromTheStart(this->Image, 1, choose));
   }
 }
 
@@ -147,7 +162,6 @@ TEST_F(Resume, SelectsComponentsWithoutARunInAWindow)
 
 TEST_F(Resume, ResumesAtTheLastConvergedLevelAfterAStop)
 {
-  const Choice choose = [](vtkDeformableSurface* filter) { filter->SetSnapshotInterval(7); };
   struct Case
   {
     const char* Part;
@@ -162,7 +176,7 @@ TEST_F(Resume, ResumesAtTheLastConvergedLevelAfterAStop)
          Case{ "Level 0, optimization", 3, 0, 0 }, Case{ "Level -1, iteration", 2, -1, -1 } })
   {
     SCOPED_TRACE(test.Part);
-    const auto filter = FilterOf(this->Image, choose);
+    const auto filter = FilterOf(this->Image, Choices[1]);
     filter->SetFinestLevel(test.Finest);
     for (int stops = 0; stops < test.Stops; ++stops)
     {
@@ -175,7 +189,7 @@ TEST_F(Resume, ResumesAtTheLastConvergedLevelAfterAStop)
       filter->GoOn();
     }
     EXPECT_FALSE(Reruns(filter, test.Level));
-    ExpectSameOutputs(filter, FromTheStart(this->Image, test.Finest, choose));
+    ExpectSameOutputs(filter, FromTheStart(this->Image, test.Finest, Choices[1]));
   }
 }
 
@@ -192,10 +206,10 @@ TEST_F(Resume, IgnoresALateRequestToStop)
 
 TEST_F(Resume, PreviewEndsAtALevelWithFewVoxels)
 {
-  const auto large = BallImage(180, 160, 128);
+  const auto large = LargeBall();
   const auto filter =
     SurfaceOf<vtkVolumeToSurface>(large, [](vtkVolumeToSurface* f) { f->PreviewOn(); });
-  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1) << "104 x 92 x 74 voxels";
+  EXPECT_EQ(FieldOf(filter->GetOutput(), "Level"), 1);
   filter->PreviewOff();
   EXPECT_FALSE(Reruns(filter, 0));
   ExpectSameOutputs(filter, FromTheStart(large, 0));
@@ -218,20 +232,28 @@ TEST_F(Resume, KeepsNoOtherComponentsWithoutAWindow)
 
 TEST_F(Resume, RestartsAfterAnyOtherChange)
 {
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->ShallowCopy(PyramidOf(this->Image)->GetOutput());
   const std::function<void()> changes[] = { [&] { this->Filter->SetIsoValue(45.0); },
     [&] { this->Filter->SetSnapshotInterval(5); }, [&] { this->Filter->Modified(); },
     [&] { this->Filter->SetMetricToVoxels(); }, [&] { this->Filter->ForgetRun(); },
     [&]
     {
-      this->Image->GetPointData()->GetScalars()->SetComponent(5, 0, 20.0);
-      this->Image->GetPointData()->GetScalars()->Modified();
+      Voxels(this->Image)->SetComponent(5, 0, 20.0);
+      Voxels(this->Image)->Modified();
     },
     [&]
     {
       Voxels(this->Image)->SetComponent(6, 0, 20.0);
       this->Image->Modified();
     },
-    [&] { this->Filter->SetInputData(ResumeScene(56)); } };
+    [&] { this->Filter->SetInputData(ResumeScene(56)); },
+    [&] { this->Filter->SetInputDataObject(blocks); },
+    [&]
+    {
+      Voxels(Level(blocks, 1))->SetComponent(5, 0, 1.0);
+      Voxels(Level(blocks, 1))->Modified();
+    } };
   for (const auto& change : changes)
   {
     this->Filter->SetFinestLevel(2);
@@ -242,33 +264,18 @@ TEST_F(Resume, RestartsAfterAnyOtherChange)
   }
 }
 
-TEST_F(Resume, RestartsIfABlockOfThePyramidChanges)
-{
-  const auto pyramid = PyramidOf(this->Image);
-  vtkNew<vtkMultiBlockDataSet> blocks;
-  blocks->ShallowCopy(pyramid->GetOutput());
-  this->Filter->SetInputDataObject(blocks);
-  this->Filter->SetFinestLevel(2);
-  this->Filter->Update();
-  vtkDataArray* voxels = Voxels(Level(blocks, 1));
-  voxels->SetComponent(voxels->GetNumberOfTuples() / 2, 0, 1.0);
-  voxels->Modified();
-  this->Filter->SetFinestLevel(1);
-  EXPECT_TRUE(Reruns(this->Filter, 1));
-}
-
-TEST_F(Resume, IsIndependentOfResume)
+TEST_F(Resume, IsIndependentOfDeprecatedProperties)
 {
   this->Filter->SetFinestLevel(1);
   const MessagesOf warnings(this->Filter, vtkCommand::WarningEvent);
   this->Filter->ResumeOff();
   EXPECT_EQ(warnings.Get(), "");
   this->Filter->ResumeOn();
-  const std::string once = warnings.Get();
-  EXPECT_TRUE(Has(once, "Resume is deprecated and has no effect"));
   this->Filter->ResumeOn();
+  EXPECT_EQ(CountOf(warnings.Get(), "Resume is deprecated and has no effect"), 1);
+  this->Filter->ProfileOn();
+  EXPECT_TRUE(Has(warnings.Get(), "Profile is deprecated"));
   this->Filter->Update();
-  EXPECT_EQ(warnings.Get(), once);
   ExpectSameOutputs(this->Filter, FromTheStart(this->Image, 1));
 }
 
@@ -297,9 +304,7 @@ TEST_F(Resume, StartsAtAReleasedLevel)
   // With a thicker rod a run to level 2 starts there, and other runs start at level 1.
   FillBox(this->Image, { 0, 0, 0 }, { 64, 64, 64 }, 0.0);
   FillBox(this->Image, { 5, 5, 6 }, { 10, 10, 58 });
-  const Choice choose = [](vtkDeformableSurface* filter)
-  { filter->SetRecovery(vtkDeformableSurface::NoRecovery); };
-  const auto filter = FromTheStart(this->Image, 1, choose);
+  const auto filter = FromTheStart(this->Image, 1, Choices[2]);
   ASSERT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), 1);
   for (const int finest : { 2, 1 })
   {
@@ -307,21 +312,88 @@ TEST_F(Resume, StartsAtAReleasedLevel)
     filter->Update();
     EXPECT_EQ(filter->GetErrorCode(), 0u);
     EXPECT_EQ(filter->GetHistory()->GetValueByName(0, "Level").ToInt(), finest);
-    ExpectSameOutputs(filter, FromTheStart(this->Image, finest, choose));
+    ExpectSameOutputs(filter, FromTheStart(this->Image, finest, Choices[2]));
   }
 }
 
 TEST_F(Resume, RestartsAfterACancelledRun)
 {
-  ProgressListener listener(this->Filter);
-  listener.StopAt = 0.7;
-  this->Filter->Update();
+  {
+    const StopAtText stop(this->Filter, "Level 1, iteration", 1);
+    this->Filter->Update();
+  }
   ASSERT_EQ(StopReason(this->Filter->GetOutput()), "cancelled");
-  this->Filter->RemoveAllObservers();
   for (const int finest : { 1, 0 })
   {
     this->Filter->SetFinestLevel(finest);
     this->Filter->Update();
     ExpectSameOutputs(this->Filter, FromTheStart(this->Image, finest));
   }
+}
+
+TEST(ShowLevels, OutputsLevelsOneByOne)
+{
+  const auto image = LargeBall();
+  const auto filter = ShowingFilterOf(image);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
+  const auto atOnce = ShowingFilterOf(image);
+  atOnce->Update();
+  EXPECT_FALSE(atOnce->GetNeedsUpdate()) << "no effect on a caller that does not ask";
+  EXPECT_TRUE(AreSameSurfaces(filter->GetOutput(), atOnce->GetOutput()));
+  filter->SetIsoValue(40.0);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 })) << "again";
+  filter->ShowLevelsOff();
+  filter->SetIsoValue(45.0);
+  EXPECT_EQ(LevelsShown(filter), std::vector<int>{ 0 });
+}
+
+TEST(ShowLevels, ShowsTheLevelThatWasStopped)
+{
+  for (const bool isPreview : { false, true })
+  {
+    const auto filter = ShowingFilterOf(LargeBall());
+    filter->SetPreview(isPreview);
+    filter->GetNeedsUpdate();
+    {
+      const StopAtText stop(filter, "Level 1, iteration", 1);
+      filter->Update();
+      ASSERT_EQ(StopReason(filter->GetOutput()), "cancelled");
+    }
+    EXPECT_FALSE(filter->GetNeedsUpdate());
+    filter->GoOn();
+    EXPECT_EQ(LevelsShown(filter), isPreview ? std::vector<int>{ 1 } : (std::vector<int>{ 1, 0 }));
+  }
+}
+
+TEST(ShowLevels, WarnsOnlyAtTheEnd)
+{
+  const auto image = LargeBall();
+  Voxels(image)->SetComponent(0, 0, vtkMath::Nan());
+  const auto filter = ShowingFilterOf(image);
+  filter->SetKeepComponents(vtkDeformableSurface::LargeComponents);
+  filter->SetMinimumComponentVolume(1e9);
+  const MessagesOf warnings(filter, vtkCommand::WarningEvent);
+  filter->GetNeedsUpdate();
+  filter->Update();
+  EXPECT_EQ(warnings.Get(), "");
+  ASSERT_TRUE(filter->GetNeedsUpdate());
+  filter->Update();
+  EXPECT_TRUE(warnings.Has("surface of level 0 is empty: Keep Components"));
+  EXPECT_TRUE(warnings.Has("has 1 NaN voxel")) << warnings.Get();
+}
+
+TEST(ShowLevels, EndsAfterAnErrorAndAtTheTimeLimit)
+{
+  const auto filter = ShowingFilterOf(LargeBall());
+  filter->GetNeedsUpdate();
+  filter->Update();
+  filter->SetIsoValue(1e5);
+  ExpectErrorOf(filter, { "Iso Value is 100000" });
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  filter->SetIsoValue(50.0);
+  filter->SetTimeLimit(1e-6);
+  filter->Update();
+  EXPECT_FALSE(filter->GetNeedsUpdate());
+  filter->SetTimeLimit(0.0);
+  EXPECT_EQ(LevelsShown(filter), (std::vector<int>{ 1, 0 }));
 }

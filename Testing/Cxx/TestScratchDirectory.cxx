@@ -19,13 +19,9 @@ constexpr std::size_t MiB = std::size_t(1) << 20;
 std::size_t BytesFrom(const TemporaryFolder& folder)
 {
   std::size_t bytes = 0;
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
+  for (const auto& [begin, end] : folder.Mapped())
   {
-    std::size_t dash = 0;
-    const std::size_t begin = std::stoull(line, &dash, 16);
-    const std::size_t end = std::stoull(line.substr(dash + 1), nullptr, 16);
-    bytes += line.find(folder.Path() + "/") != std::string::npos ? end - begin : 0;
+    bytes += end - begin;
   }
   EXPECT_EQ(folder.Names(), std::set<std::string>());
   return bytes;
@@ -66,9 +62,9 @@ void ExpectErrors(Filter* filter, const std::function<vtkIdType()>& elements)
       const MessagesOf errors(filter);
       filter->Update();
       EXPECT_NE(filter->GetErrorCode(), vtkErrorCode::NoError);
-      EXPECT_TRUE(errors.Has("Scratch Directory " + directory + " ")) << errors.Get();
-      EXPECT_TRUE(errors.Has(reason)) << errors.Get();
-      EXPECT_TRUE(errors.Has(mend)) << errors.Get();
+      EXPECT_TRUE(Has(errors.Get(), "Scratch Directory " + directory + " "));
+      EXPECT_TRUE(Has(errors.Get(), reason));
+      EXPECT_TRUE(Has(errors.Get(), mend));
       EXPECT_EQ(elements(), 0);
     }
     filter->SetScratchDirectory("");
@@ -152,10 +148,9 @@ TEST(ScratchDirectory, IsNamedByTheWarningOfMemoryLimit)
     filter->SetMemoryLimit(0);
     EXPECT_EQ(warnings.Get(), "");
     filter->SetMemoryLimit(2000);
-    EXPECT_TRUE(warnings.Has("has no effect") && warnings.Has("ScratchDirectory"));
-    const std::string once = warnings.Get();
     filter->SetMemoryLimit(3000);
-    EXPECT_EQ(warnings.Get(), once);
+    EXPECT_TRUE(Has(warnings.Get(), "ScratchDirectory"));
+    EXPECT_EQ(CountOf(warnings.Get(), "has no effect"), 1);
     EXPECT_EQ(filter->GetMemoryLimit(), 3000);
     EXPECT_EQ(filter->GetMTime(), before);
   };

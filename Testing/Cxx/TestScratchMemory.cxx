@@ -14,18 +14,9 @@ constexpr std::size_t n = ScratchMemory::LargeBytes;
 bool IsIn(const TemporaryFolder& folder, const LargeVector<char>& array)
 {
   const auto address = reinterpret_cast<std::uintptr_t>(array.data());
-  std::ifstream maps("/proc/self/maps");
-  for (std::string line; std::getline(maps, line);)
-  {
-    std::size_t dash = 0;
-    const std::size_t begin = std::stoull(line, &dash, 16);
-    const std::size_t end = std::stoull(line.substr(dash + 1), nullptr, 16);
-    if (begin <= address && address < end)
-    {
-      return line.find(folder.Path() + "/") != std::string::npos;
-    }
-  }
-  return false;
+  const auto mapped = folder.Mapped();
+  return std::any_of(mapped.begin(), mapped.end(),
+    [address](const auto& range) { return range.first <= address && address < range.second; });
 }
 }
 

@@ -5,7 +5,6 @@
 #include "Core/Surface/SurfaceBlocks.h"
 #include "Core/Surface/SurfaceEditor.h"
 #include "LiveSurface.h"
-#include "RemeshTestTools.h"
 
 using namespace volumic;
 
@@ -68,12 +67,6 @@ int BlockWith(SurfaceBlocks& blocks, const SurfaceMesh& mesh, const Vector& posi
   }
   return found;
 }
-
-/** Return any vertex of a block. */
-int VertexOf(SurfaceBlocks& blocks, const SurfaceMesh& mesh, int block)
-{
-  return VerticesOf(blocks, mesh, block).front();
-}
 }
 
 TEST(SurfaceBlocks, ReassignStrayVerticesBetweenSweeps)
@@ -95,7 +88,7 @@ TEST(SurfaceBlocks, ReassignStrayVerticesBetweenSweeps)
   EXPECT_EQ(BlockWith(blocks, state.Mesh, far), 2);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, near), 1);
   const Vector beyond(-40, 0, 0);
-  state.MoveTo(VertexOf(blocks, state.Mesh, 2), beyond);
+  state.MoveTo(VerticesOf(blocks, state.Mesh, 2).front(), beyond);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 2);
   blocks.Prepare(Thread);
   EXPECT_EQ(BlockWith(blocks, state.Mesh, beyond), 0) << "the outermost block is unbounded";

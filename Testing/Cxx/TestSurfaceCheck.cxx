@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 
 // Each check with a surface that only this check rejects.
-#include "RemeshTestTools.h"
+#include "CoreTestTools.h"
 
 using namespace volumic;
 
@@ -13,11 +13,18 @@ std::string ErrorOf(const IndexedSurface& surface)
   return ErrorMessageOf([&] { CheckInitialSurface(surface); });
 }
 
+/** The error of a surface that no mesh can have. */
+std::string ErrorOfTopology(const IndexedSurface& surface)
+{
+  EXPECT_THROW(MeshOf(surface), std::invalid_argument);
+  return ErrorOf(surface);
+}
+
 std::string OutsideErrorOf(const IndexedSurface& surface)
 {
-  const TestVolume volume = MakeVolume(20, [](double, double, double) { return 0.; });
-  LevelImage image = volume.Image;
-  image.Step = { 1, 1, 2 }; // 20 x 20 x 40
+  LevelImage image;
+  image.Size = { 20, 20, 20 };
+  image.Step = { 1, 1, 2 };
   return ErrorMessageOf([&] { CheckOverlapsImage(surface, image); });
 }
 
@@ -71,17 +78,17 @@ TEST(SurfaceCheck, RejectsOpenNonManifoldAndMisorientedEdges)
 {
   IndexedSurface open = Ball();
   open.Triangles.erase(open.Triangles.begin() + 3);
-  EXPECT_TRUE(Has(ErrorOf(open), "is not closed: 3 edges"));
+  EXPECT_TRUE(Has(ErrorOfTopology(open), "is not closed: 3 edges"));
   // Two tetrahedra that share an edge but no triangle. Every other edge has two triangles.
   IndexedSurface hinge;
   hinge.Points = { { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 0 }, { 0.6, 1, 0.5 }, { -1, 0, 0 },
     { -0.6, -1, 0.5 } };
   hinge.Triangles = { { 0, 3, 2 }, { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 0, 5, 4 }, { 0, 4, 1 },
     { 0, 1, 5 }, { 1, 4, 5 } };
-  EXPECT_TRUE(Has(ErrorOf(hinge), "1 edges have more than two triangles"));
+  EXPECT_TRUE(Has(ErrorOfTopology(hinge), "1 edges have more than two triangles"));
   IndexedSurface twisted = Ball();
   std::swap(twisted.Triangles[3][0], twisted.Triangles[3][1]);
-  EXPECT_TRUE(Has(ErrorOf(twisted), "is not consistently oriented: 3 edges"));
+  EXPECT_TRUE(Has(ErrorOfTopology(twisted), "is not consistently oriented: 3 edges"));
 }
 
 TEST(SurfaceCheck, RejectsNonManifoldVertices)
@@ -97,7 +104,7 @@ TEST(SurfaceCheck, RejectsNonManifoldVertices)
     }
   }
   surface.Points[9] = { 5, 0, 0 };
-  EXPECT_TRUE(Has(ErrorOf(surface), "1 points join several triangle fans"));
+  EXPECT_TRUE(Has(ErrorOfTopology(surface), "1 points join several triangle fans"));
 }
 
 TEST(SurfaceCheck, RejectsNonPositiveVolume)

@@ -5,7 +5,7 @@
 #include "Core/Mesh/SurfaceMeasures.h"
 #include "Core/Surface/ComponentWatch.h"
 #include "Core/Surface/SurfaceComponents.h"
-#include "RemeshTestTools.h"
+#include "LiveSurface.h"
 
 using namespace volumic;
 
@@ -19,16 +19,19 @@ IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
   return isCavity ? InsideOut(ball) : ball;
 }
 
-/** Make a state of these components, with delta 1. */
-void Fill(SurfaceState& state, const std::vector<IndexedSurface>& components)
+/** A surface of these components, with delta 1. */
+struct Scene : SurfaceState
 {
-  for (const IndexedSurface& component : components)
+  explicit Scene(const std::vector<IndexedSurface>& components)
   {
-    state.Mesh.Append(component);
+    for (const IndexedSurface& component : components)
+    {
+      this->Mesh.Append(component);
+    }
+    this->Sizing = SizingField(1);
+    this->Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
   }
-  state.Sizing = SizingField(1);
-  state.Reset(Vector(-40, -40, -40), Vector(60, 40, 40));
-}
+};
 }
 
 TEST(SurfaceComponents, DeletesInsideOutComponents)
@@ -53,8 +56,7 @@ TEST(SurfaceComponents, DeletesInsideOutComponents)
       Case{ "the only one", { cavity(0, 8) }, {} } })
   {
     SCOPED_TRACE(test.Name);
-    SurfaceState state;
-    Fill(state, test.Components);
+    Scene state(test.Components);
     SurfaceComponents components;
     const bool isAny = test.Kept.size() < test.Components.size();
     EXPECT_EQ(components.DeleteInsideOut(state, OnThisThread()), isAny);
@@ -73,9 +75,8 @@ TEST(SurfaceComponents, DeletesInsideOutComponents)
 TEST(SurfaceComponents, LabelsComponentsInOrderOfFirstVertex)
 {
   // Interleave the vertices of three components, so that each has vertices in all spans.
-  SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 0, 0, 0 }, 10, 0.3);
-  Fill(state, { ball, ball, ball, Ball({ 30, 0, 0 }, 3) });
+  Scene state({ ball, ball, ball, Ball({ 30, 0, 0 }, 3) });
   const int size = static_cast<int>(ball.Points.size());
   ASSERT_GT(size, 10000);
   std::vector<int> order;
@@ -106,8 +107,7 @@ TEST(SurfaceComponents, IdentifiesCavityByTotalVolume)
   const IndexedSurface ring = MakeTorus({ 0, 0, 0 }, 10, 4, 500, 200);
   for (const bool isCavity : { false, true })
   {
-    SurfaceState state;
-    Fill(state, { isCavity ? InsideOut(ring) : ring });
+    Scene state({ isCavity ? InsideOut(ring) : ring });
     const SurfaceMesh& mesh = state.Mesh;
     std::vector<int> order(mesh.Rings.size());
     std::iota(order.begin(), order.end(), 0);
@@ -132,9 +132,8 @@ namespace
 /** Return whether a ball, or a cavity, of this edge length is deleted for this field value. */
 bool IsDeleted(double edge, double value, bool isCavity)
 {
-  SurfaceState state;
   const IndexedSurface ball = DividedIcosahedron({ 30, 0, 0 }, 2, edge);
-  Fill(state, { Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
+  Scene state({ Ball({ 0, 0, 0 }, 10), isCavity ? InsideOut(ball) : ball });
   SurfaceComponents components;
   components.Label(state, OnThisThread());
   for (int v = 0; v < state.Mesh.Size(); ++v)
@@ -163,11 +162,10 @@ TEST(SurfaceComponents, DeletesTinyComponentsOnWrongSide)
 
 TEST(SurfaceComponents, DeletesVanishedComponents)
 {
-  SurfaceState state;
   IndexedSurface tetrahedron;
   tetrahedron.Points = { { 30, 0, 0 }, { 32, 0, 0 }, { 30, 2, 0 }, { 30, 0, 2 } };
   tetrahedron.Triangles = { { 0, 2, 1 }, { 0, 1, 3 }, { 1, 2, 3 }, { 2, 0, 3 } };
-  Fill(state, { Ball({ 0, 0, 0 }, 10), tetrahedron });
+  Scene state({ Ball({ 0, 0, 0 }, 10), tetrahedron });
   SurfaceComponents components;
   components.Label(state, OnThisThread());
   EXPECT_TRUE(components.DeleteDegenerate(state, OnThisThread()));
@@ -176,9 +174,8 @@ TEST(SurfaceComponents, DeletesVanishedComponents)
 
 TEST(ComponentWatch, DeletesInvertedComponents)
 {
-  SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 10);
-  Fill(state, { large, Ball({ 30, 0, 0 }, 4) });
+  Scene state({ large, Ball({ 30, 0, 0 }, 4) });
   ComponentWatch watch;
   watch.LabelSmall(state, 0, state.Mesh.Size(), Everywhere);
   for (const float size : { 0.2f, -0.2f })
@@ -195,10 +192,9 @@ TEST(ComponentWatch, DeletesInvertedComponents)
 
 TEST(ComponentWatch, WatchesSmallComponentsInRange)
 {
-  SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
   const IndexedSurface small = Ball({ 30, 0, 0 }, 0.8);
-  Fill(state, { large, small, Ball({ 40, 0, 0 }, 0.8) });
+  Scene state({ large, small, Ball({ 40, 0, 0 }, 0.8) });
   const int first = static_cast<int>(large.Points.size());
   const int size = static_cast<int>(small.Points.size());
   ASSERT_GT(first, 800);
@@ -222,9 +218,8 @@ TEST(ComponentWatch, WatchesSmallComponentsInRange)
 
 TEST(ComponentWatch, SkipsCertainlyLargeComponents)
 {
-  SurfaceState state;
   const IndexedSurface large = Ball({ 0, 0, 0 }, 12);
-  Fill(state, { large, Ball({ 30, 0, 0 }, 0.8) });
+  Scene state({ large, Ball({ 30, 0, 0 }, 0.8) });
   const int size = static_cast<int>(large.Points.size());
   SurfaceComponents components;
   EXPECT_FALSE(components.Large().Has(state.Component[0])) << "not labelled yet";

@@ -7,35 +7,10 @@
 
 using namespace volumic;
 
-namespace
-{
-/** Return the box [0, a] x [0, b] x [0, c], translated. */
-IndexedSurface Box(double a, double b, double c, const Point& at)
-{
-  IndexedSurface box;
-  for (int i = 0; i < 8; ++i)
-  {
-    box.Points.push_back({ at[0] + a * (i & 1), at[1] + b * (i >> 1 & 1), at[2] + c * (i >> 2) });
-  }
-  box.Triangles = { { 0, 2, 1 }, { 1, 2, 3 }, { 4, 5, 6 }, { 5, 7, 6 }, { 0, 1, 4 }, { 1, 5, 4 },
-    { 2, 6, 3 }, { 3, 6, 7 }, { 0, 4, 2 }, { 2, 4, 6 }, { 1, 3, 5 }, { 3, 7, 5 } };
-  return box;
-}
-}
-
 TEST(SurfaceFeatures, SortsByAreaAndSignsVolume)
 {
-  IndexedSurface surface = Box(2, 2, 2, { 4, 4, 4 });
-  for (Triangle& t : surface.Triangles)
-  {
-    std::swap(t[0], t[1]); // A cavity.
-  }
-  const IndexedSurface outer = Box(10, 10, 10, { 0, 0, 0 });
-  for (const Triangle& t : outer.Triangles)
-  {
-    surface.Triangles.push_back({ t[0] + 8, t[1] + 8, t[2] + 8 });
-  }
-  surface.Points.insert(surface.Points.end(), outer.Points.begin(), outer.Points.end());
+  IndexedSurface surface = InsideOut(Cuboid({ 4, 4, 4 }, { 6, 6, 6 })); // a cavity
+  AddSurface(surface, Cuboid({ 0, 0, 0 }, { 10, 10, 10 }));
   const SurfaceFeatures features = ComputeFeatures(surface);
   ASSERT_EQ(features.Components.size(), 2u);
   EXPECT_NEAR(features.Components[0].Volume, 1000, 1e-6);
@@ -51,13 +26,15 @@ TEST(SurfaceFeatures, AreIndependentOfThreads)
   // Boxes of equal size, distinguished by their order only, with interleaved triangles.
   constexpr int count = 3000;
   IndexedSurface surface;
+  const IndexedSurface unit = Cuboid({ 0, 0, 0 }, { 1, 1, 1 });
   for (int b = 0; b < count; ++b)
   {
-    const IndexedSurface box = Box(1, 1, 1, { 2. * (b % 50), 2. * (b / 50), 0. });
-    surface.Points.insert(surface.Points.end(), box.Points.begin(), box.Points.end());
+    for (const Point& p : unit.Points)
+    {
+      surface.Points.push_back({ 2. * (b % 50) + p[0], 2. * (b / 50) + p[1], p[2] });
+    }
   }
   surface.Points.push_back({ 0, 0, 9 }); // Not in any triangle.
-  const IndexedSurface unit = Box(1, 1, 1, { 0, 0, 0 });
   for (const Triangle& t : unit.Triangles)
   {
     for (int b = count - 1; b >= 0; --b)

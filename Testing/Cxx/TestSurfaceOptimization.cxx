@@ -13,19 +13,6 @@ struct CrowdedSurface : LiveSurface
   explicit CrowdedSurface(const SurfaceMesh& mesh) : LiveSurface(mesh) { this->NearOthers.Fill(1); }
 };
 
-std::vector<int> AliveVertices(const SurfaceState& state)
-{
-  std::vector<int> alive;
-  for (int v = 0; v < state.Mesh.Size(); ++v)
-  {
-    if (state.Mesh.IsAlive(v))
-    {
-      alive.push_back(v);
-    }
-  }
-  return alive;
-}
-
 /** Return a sphere with vertices displaced randomly on it. */
 SurfaceMesh ShakenSphere(unsigned seed)
 {
@@ -79,7 +66,7 @@ TEST(SurfaceOptimization, RestoresEdgeLengthsAndTriangleQuality)
     ASSERT_GT(before.EdgesOutside, 10);
     ASSERT_LT(before.WorstRatio, 0.5);
     SurfaceOptimization optimize(state, nullptr, false);
-    optimize.Run(AliveVertices(state));
+    optimize.Run(state.All());
     const Shape after = ShapeOf(state);
     EXPECT_EQ(after.EdgesOutside, 0);
     EXPECT_GT(after.WorstRatio, 0.5);
@@ -115,7 +102,7 @@ TEST(SurfaceOptimization, RestoresClearance)
     return least;
   };
   ASSERT_LT(nearest(), 1.2);
-  SurfaceOptimization(state, nullptr, false).Run(AliveVertices(state));
+  SurfaceOptimization(state, nullptr, false).Run(state.All());
   EXPECT_GT(nearest(), 1.42); // lambda = 1.443
   EXPECT_EQ(CountSelfIntersections(state.Mesh.ToIndexed()), 0);
   EXPECT_EQ(state.Mesh.CountEulerCharacteristic(), 4);

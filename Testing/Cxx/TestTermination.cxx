@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/CycleCriterion.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -24,24 +23,6 @@ TestVolume Noise(int n, unsigned seed)
   return MakeVolume(
     n, [&engine](double, double, double) { return static_cast<double>(engine()) / 4294967296.; });
 }
-}
-
-TEST(CycleCriterion, IsNotMetByProgress)
-{
-  std::mt19937 engine(2);
-  CycleCriterion steady;
-  CycleCriterion shaken;
-  CycleCriterion slowing;
-  for (int i = 0; i < 60; ++i)
-  {
-    const double shake = static_cast<double>(engine() % 1000) / 100.;
-    steady.Add(1000. + i * 0.5);
-    shaken.Add(1000. - i * 2. + shake);
-    slowing.Add(1000. * (1. - std::exp(-i / 20.)));
-    EXPECT_FALSE(steady.IsMet(1.)) << i;
-    EXPECT_FALSE(shaken.IsMet(1.)) << i;
-    EXPECT_FALSE(slowing.IsMet(1.)) << i;
-  }
 }
 
 TEST(Termination, StopsNoiseAsLimitCycle)

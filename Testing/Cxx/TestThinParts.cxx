@@ -19,23 +19,12 @@ vtkSmartPointer<vtkImageData> Image()
   return image;
 }
 
-using ThinChoice = ChoiceOf<vtkVolumeToSurface>;
-
-vtkSmartPointer<vtkVolumeToSurface> Filter(bool thinParts, const ThinChoice& choose = {})
+/** Return a filter with these settings after Update(). */
+vtkSmartPointer<vtkVolumeToSurface> Made(
+  bool thinParts, const ChoiceOf<vtkVolumeToSurface>& choose = [](vtkVolumeToSurface*) {})
 {
-  const auto filter = FilterOf<vtkVolumeToSurface>(Image());
+  const auto filter = FilterOf<vtkVolumeToSurface>(Image(), choose);
   filter->SetThinParts(thinParts);
-  if (choose)
-  {
-    choose(filter);
-  }
-  return filter;
-}
-
-/** Return the filter after Update(). */
-vtkSmartPointer<vtkVolumeToSurface> Made(bool thinParts, const ThinChoice& choose = {})
-{
-  auto filter = Filter(thinParts, choose);
   filter->Update();
   return filter;
 }
@@ -76,12 +65,7 @@ TEST(ThinParts, HaveShorterEdges)
   EXPECT_NEAR(range[0], 1.6 * FieldOf(surface, "Delta"), 1e-5);
   EXPECT_NEAR(range[1], 1.6 * FieldOf(even->GetOutput(), "Delta"), 1e-5);
   EXPECT_TRUE(std::isnan(FieldOf(surface, "WithinTolerance"))) << "no tolerance was given";
-}
-
-TEST(ThinParts, LeaveLevel0AsItIs)
-{
-  const auto even = Made(false);
-  const auto thin = Made(true);
+  // Level 0 is the same as without thin parts.
   EXPECT_TRUE(AreSameSurfaces(SurfaceAt(thin, 0), SurfaceAt(even, 0)));
   EXPECT_FALSE(HasThickness(SurfaceAt(thin, 0)));
   EXPECT_EQ(thin->GetLevels()->GetNumberOfBlocks(), even->GetLevels()->GetNumberOfBlocks() + 1);
@@ -90,14 +74,12 @@ TEST(ThinParts, LeaveLevel0AsItIs)
 
 TEST(ThinParts, AreIdenticalToANewRunInAnyOrder)
 {
-  const auto filter = Filter(false);
+  const auto filter = FilterOf<vtkVolumeToSurface>(Image());
   for (const auto& [thinParts, finest, preview] : std::vector<std::array<int, 3>>{ { 0, 0, 0 },
          { 1, 0, 0 }, { 1, 1, 0 }, { 1, 0, 1 }, { 1, 0, 0 }, { 0, -1, 0 }, { 1, -1, 0 } })
   {
     SCOPED_TRACE(::testing::Message() << thinParts << " " << finest << " " << preview);
-    const int level = finest;
-    const bool isPreview = preview != 0;
-    const auto choose = [=](vtkVolumeToSurface* f)
+    const auto choose = [level = finest, isPreview = preview != 0](vtkVolumeToSurface* f)
     {
       f->SetFinestLevel(level);
       f->SetPreview(isPreview);

@@ -13,20 +13,13 @@ vtkSmartPointer<vtkImageData> Image()
   return image;
 }
 
-vtkSmartPointer<vtkDeformableSurface> GradedFilter(double tolerance, const Choice& choose = {})
+/** Return a filter with these settings after Update(). */
+vtkSmartPointer<vtkDeformableSurface> Graded(
+  double tolerance, const Choice& choose = [](vtkDeformableSurface*) {})
 {
   const auto filter = FilterOf(Image());
   filter->SetTolerance(tolerance);
-  if (choose)
-  {
-    choose(filter);
-  }
-  return filter;
-}
-
-vtkSmartPointer<vtkDeformableSurface> Graded(double tolerance, const Choice& choose = {})
-{
-  const auto filter = GradedFilter(tolerance, choose);
+  choose(filter);
   filter->Update();
   return filter;
 }
@@ -56,20 +49,14 @@ TEST(Tolerance, HasEdgeSizesAndDistances)
   EXPECT_GT(FieldOf(surface, "WithinTolerance"), 0.98);
   EXPECT_LT(FieldOf(surface, "LargestDistance"), 0.5);
   EXPECT_EQ(StopReason(surface), "converged");
-}
-
-TEST(Tolerance, AppliesToTheFinestLevelOnly)
-{
-  const auto filter = Graded(0.3);
-  EXPECT_TRUE(IsGraded(SurfaceAt(filter, 0)));
+  // It applies to the finest level only.
   EXPECT_FALSE(IsGraded(SurfaceAt(filter, 1)));
-  const auto even = Graded(0.0);
   EXPECT_TRUE(AreSameSurfaces(SurfaceAt(filter, 1), SurfaceAt(even, 1)));
 }
 
 TEST(Tolerance, IsIdenticalToANewRunAfterAnyRun)
 {
-  const auto filter = GradedFilter(0.3);
+  const auto filter = FilterOf(Image(), [](vtkDeformableSurface* f) { f->SetTolerance(0.3); });
   for (const int finest : { 1, 0, -1, 0, 1 })
   {
     SCOPED_TRACE(finest);
@@ -156,13 +143,8 @@ TEST(Tolerance, AppliesToKeptComponents)
 
 TEST(Tolerance, ReportsInvalidProperties)
 {
-  struct Case
-  {
-    Choice Break;
-    std::vector<std::string> Parts;
-  };
   const double infinite = std::numeric_limits<double>::infinity();
-  const std::vector<Case> cases = {
+  const std::vector<ErrorCase<vtkDeformableSurface>> cases = {
     { [](vtkDeformableSurface* f) { f->SetTolerance(-0.5); }, { "Tolerance is -0.5", "0 (edges" } },
     { [=](vtkDeformableSurface* f) { f->SetTolerance(infinite); }, { "Tolerance is inf" } },
     { [](vtkDeformableSurface* f) { f->SetTolerance(std::nan("")); }, { "Tolerance is nan" } },
@@ -191,9 +173,11 @@ TEST(Tolerance, ReportsInvalidProperties)
       { f->SetTolerance(0.), f->ThinPartsOn(), f->SetIsopotentialWeight(0.); },
       { "Thin Parts is on, but Isopotential Weight is not more than" } },
   };
-  for (const Case& test : cases)
+  for (const auto& test : cases)
   {
     SCOPED_TRACE(test.Parts.front());
-    ExpectErrorOf(GradedFilter(0.2, test.Break), test.Parts);
+    const auto filter = FilterOf(Image(), [](vtkDeformableSurface* f) { f->SetTolerance(0.2); });
+    test.Spoil(filter);
+    ExpectErrorOf(filter, test.Parts);
   }
 }

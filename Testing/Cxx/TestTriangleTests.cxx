@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Intersection of two triangles, and of new faces with a mesh.
+// Intersection and distance of two triangles, intersection of new faces with a mesh.
+#include "Core/Mesh/TriangleDistance.h"
 #include "Core/Surface/NewFaces.h"
 #include "LiveSurface.h"
 
@@ -9,12 +10,20 @@ using namespace volumic;
 
 namespace
 {
+MeshTriangle Named(int name, const VectorD& a, const VectorD& b, const VectorD& c)
+{
+  return { { name, name + 1, name + 2 }, { a, b, c } };
+}
+
 const MeshTriangle Corner = Named(0, { 0, 0, 0 }, { 4, 0, 0 }, { 0, 4, 0 });
 }
 
-TEST(TriangleTests, DetectsCrossing)
+TEST(TriangleTests, DetectsCrossingInEitherOrder)
 {
-  EXPECT_TRUE(TrianglesIntersect(Corner, Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 }), 1e-9));
+  // An edge of the second pierces the first. No edge of the first intersects the second.
+  const MeshTriangle across = Named(3, { 1, 1, -1 }, { 1, 1, 1 }, { 2, 1, 1 });
+  EXPECT_TRUE(TrianglesIntersect(Corner, across, 1e-9));
+  EXPECT_TRUE(TrianglesIntersect(across, Corner, 1e-9));
   EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 3, 3, -1 }, { 3, 3, 1 }, { 4, 3, 1 }), 1e-9));
   EXPECT_FALSE(TrianglesIntersect(Corner, Named(3, { 1, 1, 1 }, { 1, 1, 2 }, { 2, 1, 1 }), 1e-9));
 }
@@ -41,15 +50,6 @@ TEST(TriangleTests, NeedleDoesNotIntersectBeyondTips)
   EXPECT_TRUE(TrianglesIntersect(needle, across, 1e-4));
   EXPECT_FALSE(
     TrianglesIntersect({ { 0, 1, 2 }, { { 0, 0, 0 }, { 1, 0, 0 }, { 0.5, 0, 0 } } }, behind, 1e-4));
-}
-
-TEST(TriangleTests, DetectsCrossingInEitherOrder)
-{
-  // An edge of the second pierces the first. No edge of the first intersects the second.
-  const MeshTriangle large = Named(0, { -9, -9, 0 }, { 9, -9, 0 }, { 0, 9, 0 });
-  const MeshTriangle small = Named(3, { 0, 0, -1 }, { 0, 0, 1 }, { 1, 0, 1 });
-  EXPECT_TRUE(TrianglesIntersect(large, small, 1e-9));
-  EXPECT_TRUE(TrianglesIntersect(small, large, 1e-9));
 }
 
 TEST(TriangleTests, DetectsCoplanarContainment)
@@ -116,4 +116,75 @@ TEST(NewFacesIntersect, TestsNewFacesAgainstEachOther)
   const MeshTriangle beside = Named(2000, { 10.5, 0.5, 1 }, { 10.5, 0.5, 2 }, { 11, 0.5, 2 });
   EXPECT_TRUE(NewFacesIntersect(state, { flat, across }, RemovedFaces()));
   EXPECT_FALSE(NewFacesIntersect(state, { flat, beside }, RemovedFaces()));
+}
+
+namespace
+{
+constexpr int Steps = 40;
+
+/** Return points of a triangle, including its edges and corners. */
+std::vector<VectorD> SamplesOf(const MeshTriangle& t)
+{
+  std::vector<VectorD> samples;
+  for (int i = 0; i <= Steps; ++i)
+  {
+    for (int j = 0; i + j <= Steps; ++j)
+    {
+      samples.push_back(t.Corner[0] + (t.Corner[1] - t.Corner[0]) * (1. * i / Steps) +
+        (t.Corner[2] - t.Corner[0]) * (1. * j / Steps));
+    }
+  }
+  return samples;
+}
+
+double GapBetween(const MeshTriangle& f, const MeshTriangle& g)
+{
+  return std::sqrt(SquaredGapBetween(f, g));
+}
+}
+
+TEST(TriangleDistance, GapMatchesSampledMinimum)
+{
+  std::mt19937 random(2);
+  const auto pointFrom = [&random](double x)
+  {
+    const auto next = [&random] { return static_cast<double>(random() % 1000) / 1000.; };
+    return VectorD(x + next(), next(), next());
+  };
+  for (int n = 0; n < 60; ++n)
+  {
+    const MeshTriangle f = Named(0, pointFrom(0.), pointFrom(0.), pointFrom(0.));
+    const MeshTriangle g = Named(3, pointFrom(1.1), pointFrom(1.1), pointFrom(1.1));
+    const std::vector<VectorD> ofG = SamplesOf(g);
+    double nearest = 9.;
+    for (const VectorD& a : SamplesOf(f))
+    {
+      for (const VectorD& b : ofG)
+      {
+        nearest = std::min(nearest, Length(a - b));
+      }
+    }
+    EXPECT_LE(GapBetween(f, g), nearest + 1e-12);
+    EXPECT_GT(GapBetween(f, g), nearest - 3.6 / Steps);
+    EXPECT_NEAR(GapBetween(f, g), GapBetween(g, f), 1e-12);
+  }
+}
+
+TEST(TriangleDistance, GapIgnoresSharedVertices)
+{
+  const VectorD a(0, 0, 0);
+  const VectorD b(1, 0, 0);
+  const MeshTriangle f = Named(0, a, b, { 0, 1, 0 });
+  // A common edge: unfolded and folded.
+  EXPECT_NEAR(GapBetween(f, { { 1, 0, 3 }, { b, a, VectorD(0, -1, 0) } }), std::sqrt(.5), 1e-12);
+  EXPECT_NEAR(GapBetween(f, { { 1, 0, 3 }, { b, a, VectorD(.2, .2, .1) } }), .1, 1e-12);
+  // A common corner: opposite and nearly coplanar.
+  EXPECT_NEAR(GapBetween(f, { { 0, 3, 4 }, { a, VectorD(-1, 0, 0), VectorD(0, -1, 0) } }),
+    std::sqrt(.5), 1e-12);
+  EXPECT_NEAR(
+    GapBetween(f, { { 0, 3, 4 }, { a, VectorD(.3, .3, .05), VectorD(0, 0, 1) } }), .05, 1e-12);
+  // An edge above another one.
+  EXPECT_NEAR(
+    GapBetween(f, { { 2, 3, 4 }, { VectorD(0, 1, 0), VectorD(.5, -.5, .02), VectorD(0, .5, 2) } }),
+    .04 / 3., 1e-4);
 }

@@ -6,16 +6,16 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/NewFaces.h"
 #include "EvolutionTestTools.h"
-#include "RemeshTestTools.h"
+#include "LiveSurface.h"
 
 using namespace volumic;
 
 namespace
 {
-std::size_t CountIn(const Bench& bench)
+std::size_t CountIn(const LiveSurface& bench)
 {
   Executor threads;
-  return CountIntersecting(bench.State, threads);
+  return CountIntersecting(bench, threads);
 }
 
 /** Pull a vertex through the opposite side. */
@@ -54,16 +54,11 @@ SurfaceOptions TwentyIterations()
 TEST(Verification, DetectsIntersectionsOfParallelSheets)
 {
   // Nearby normals are never opposite: the balls are shifted by less than an edge.
-  Bench bench(DividedIcosahedron({ 0, 0, 0 }, 10, 1.6));
-  Bench other(DividedIcosahedron({ 0.3, 0, 0 }, 10, 1.6));
+  IndexedSurface surface = DividedIcosahedron({ 0, 0, 0 }, 10, 1.6);
+  AddSurface(surface, DividedIcosahedron({ 0.3, 0, 0 }, 10, 1.6));
+  LiveSurface bench(surface);
   Proximity proximity;
-  const int first = bench.State.Mesh.Append(other.State.Mesh.ToIndexed());
-  for (int v = first; v < bench.State.Mesh.Size(); ++v)
-  {
-    bench.State.AddVertex(v, 0);
-  }
-  bench.UpdateShape();
-  proximity.Test(bench.State, bench.All(), OnThisThread());
+  proximity.Test(bench, bench.All(), OnThisThread());
   EXPECT_TRUE(proximity.Intersections().empty()) << "not found by the proximity test";
   EXPECT_GT(CountIn(bench), 0u);
 }
@@ -76,15 +71,15 @@ TEST(Verification, AgreesWithTriangleTree)
   int intersecting = 0;
   for (int scene = 0; scene < 60; ++scene)
   {
-    Bench bench(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
+    LiveSurface bench(DividedIcosahedron({ 0, 0, 0 }, 6, 1.6));
     const float most = 0.02f * static_cast<float>(scene);
     for (const int v : bench.All())
     {
-      bench.State.MoveTo(v,
-        bench.State.Mesh.Position[v] + Vector(shift(engine), shift(engine), shift(engine)) * most);
+      bench.MoveTo(
+        v, bench.Mesh.Position[v] + Vector(shift(engine), shift(engine), shift(engine)) * most);
     }
     bench.UpdateShape();
-    const bool found = CountSelfIntersections(bench.State.Mesh.ToIndexed(), 1) > 0;
+    const bool found = CountSelfIntersections(bench.Mesh.ToIndexed(), 1) > 0;
     EXPECT_EQ(CountIn(bench) > 0, found) << "scene " << scene;
     intersecting += found;
   }
@@ -95,8 +90,7 @@ TEST(Verification, AgreesWithTriangleTree)
 TEST(Verification, RepairsSurfaceOfLevel)
 {
   const TestVolume volume = BallVolume(32, 10);
-  Monitor silent;
-  TestEvolution undisturbed(TwentyIterations(), Threads, silent);
+  TestEvolution undisturbed(TwentyIterations(), Threads, Silent);
   undisturbed.StartEnclosing(volume.Image, 0);
   undisturbed.Run();
   EXPECT_EQ(undisturbed.Verified().Found, 0);
@@ -133,8 +127,7 @@ TEST(Verification, RepairsSurfaceOfLevel)
 TEST(Verification, OmitsIntersectingSnapshots)
 {
   const TestVolume volume = BallVolume(32, 10);
-  Monitor silent;
-  TestEvolution evolution(TwentyIterations(), Threads, silent);
+  TestEvolution evolution(TwentyIterations(), Threads, Silent);
   std::vector<std::size_t> points;
   evolution.Task.Observe = [&](int iteration, const std::function<SurfaceResult()>& take)
   {

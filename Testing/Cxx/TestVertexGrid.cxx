@@ -31,23 +31,6 @@ TEST(VertexGrid, FindsAllVerticesWithinRadius)
   }
 }
 
-TEST(VertexGrid, FindsMovedVertices)
-{
-  VertexGrid grid;
-  grid.Reset(Vector(0, 0, 0), Vector(20, 20, 20), 1.f);
-  grid.Insert(0, Vector(3, 3, 3));
-  grid.Insert(1, Vector(3, 3, 3));
-  grid.Move(0, Vector(15, 4, 9));
-  const auto within = [&grid](const Vector& position)
-  {
-    std::set<int> found;
-    grid.Visit(position, 0.5f, [&](int w) { found.insert(w); });
-    return found;
-  };
-  EXPECT_EQ(within(Vector(15, 4, 9)), std::set<int>{ 0 });
-  EXPECT_EQ(within(Vector(3, 3, 3)), std::set<int>{ 1 });
-}
-
 TEST(VertexGrid, LimitsMemory)
 {
   // 10^15 cells of the requested size.

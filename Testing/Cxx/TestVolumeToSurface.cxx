@@ -4,29 +4,20 @@
 #include "vtkOtsuThreshold.h"
 #include "vtkVolumeToSurface.h"
 
-#include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkIntArray.h>
 #include <vtkTable.h>
 
 using namespace volumic;
 
 namespace
 {
+constexpr double NaN = std::numeric_limits<double>::quiet_NaN();
+
 /** A row of voxels with these values. */
-template <typename Array, typename Value>
-vtkSmartPointer<vtkImageData> RowOf(const std::vector<Value>& values)
+vtkSmartPointer<vtkImageData> RowOf(const std::vector<double>& values, int type = VTK_INT)
 {
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(static_cast<int>(values.size()), 1, 1);
-  vtkNew<Array> voxels;
-  voxels->SetName("Voxels");
-  for (const Value value : values)
-  {
-    voxels->InsertNextValue(value);
-  }
-  image->GetPointData()->SetScalars(voxels);
-  return image;
+  return ImageOf(
+    { static_cast<int>(values.size()), 1, 1 }, [&](int i, int, int) { return values[i]; }, type);
 }
 
 double ThresholdOf(vtkImageData* image)
@@ -38,38 +29,21 @@ double ThresholdOf(vtkImageData* image)
   }
   return otsu->GetThreshold();
 }
-
-/** Return the image with its voxels as cells, at the same positions. */
-vtkSmartPointer<vtkImageData> AsCells(vtkImageData* image)
-{
-  auto cells = vtkSmartPointer<vtkImageData>::New();
-  int extent[6];
-  image->GetExtent(extent);
-  const double corner[3] = { -0.5, -0.5, -0.5 };
-  double origin[3];
-  image->TransformContinuousIndexToPhysicalPoint(corner, origin);
-  cells->SetExtent(extent[0], extent[1] + 1, extent[2], extent[3] + 1, extent[4], extent[5] + 1);
-  cells->SetOrigin(origin);
-  cells->SetSpacing(image->GetSpacing());
-  cells->SetDirectionMatrix(image->GetDirectionMatrix());
-  cells->GetCellData()->SetScalars(image->GetPointData()->GetScalars());
-  return cells;
-}
 }
 
 TEST(OtsuThreshold, IsBetweenTheClassesAndNotAVoxelValue)
 {
-  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2, 3, 11, 12, 13 })), 7.0);
-  EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ 0, 0, 1, 90, 91, 100 })), 45.5);
-  EXPECT_EQ(ThresholdOf(RowOf<vtkIntArray>(std::vector<int>{ -5, -4 })), -4.5);
+  EXPECT_EQ(ThresholdOf(RowOf({ 1, 2, 3, 11, 12, 13 }, VTK_DOUBLE)), 7.0);
+  EXPECT_EQ(ThresholdOf(RowOf({ 0, 0, 1, 90, 91, 100 })), 45.5);
+  EXPECT_EQ(ThresholdOf(RowOf({ -5, -4 })), -4.5);
+  EXPECT_EQ(ThresholdOf(RowOf({ NaN, 1, NaN, 2, NaN }, VTK_DOUBLE)), 1.5);
   // The nearest two of three groups are one class.
-  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ 0, 0, 10, 10, 60, 60 })), 35.0);
+  EXPECT_EQ(ThresholdOf(RowOf({ 0, 0, 10, 10, 60, 60 }, VTK_DOUBLE)), 35.0);
 }
 
 TEST(OtsuThreshold, HasAHistogram)
 {
-  const auto otsu =
-    Updated<vtkOtsuThreshold>(RowOf<vtkIntArray>(std::vector<int>{ 10, 10, 11, 90, 110, 110 }));
+  const auto otsu = Updated<vtkOtsuThreshold>(RowOf({ 10, 10, 11, 90, 110, 110 }));
   vtkDoubleArray* histogram = otsu->GetHistogram();
   ASSERT_EQ(histogram->GetNumberOfTuples(), 2 + 1024);
   EXPECT_EQ(histogram->GetValue(0), 10.0);
@@ -80,7 +54,7 @@ TEST(OtsuThreshold, HasAHistogram)
   EXPECT_EQ(counts[10], 1.0);
   EXPECT_EQ(counts[819], 1.0);
   EXPECT_EQ(counts[1023], 2.0);
-  otsu->SetInputData(RowOf<vtkIntArray>(std::vector<int>{ 3, 3 }));
+  otsu->SetInputData(RowOf({ 3, 3 }));
   EXPECT_NE(MessagesOfUpdate(otsu), "");
   EXPECT_EQ(otsu->GetHistogram()->GetNumberOfTuples(), 0);
 }
@@ -89,10 +63,10 @@ TEST(OtsuThreshold, HasASecondThresholdForASmallBrightPart)
 {
   const auto brightOf = [](std::size_t dark, std::size_t medium, std::size_t bright)
   {
-    std::vector<int> values(dark, 0);
+    std::vector<double> values(dark, 0);
     values.insert(values.end(), medium, 200);
     values.insert(values.end(), bright, 500);
-    const auto otsu = Updated<vtkOtsuThreshold>(RowOf<vtkIntArray>(values));
+    const auto otsu = Updated<vtkOtsuThreshold>(RowOf(values));
     EXPECT_EQ(otsu->GetThreshold(), 100.5);
     return otsu->GetBrightThreshold();
   };
@@ -101,36 +75,22 @@ TEST(OtsuThreshold, HasASecondThresholdForASmallBrightPart)
   EXPECT_TRUE(std::isnan(brightOf(92, 7, 1))) << "the object is small already";
 }
 
-TEST(OtsuThreshold, IgnoresNaN)
-{
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(ThresholdOf(RowOf<vtkDoubleArray>(std::vector<double>{ nan, 1, nan, 2, nan })), 1.5);
-}
-
 TEST(OtsuThreshold, ReportsInseparableVoxels)
 {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();
   for (const std::vector<double>& values :
-    { std::vector<double>{ 3, 3, 3 }, { 1, infinity, 2 }, { nan, nan, nan }, { 3, nan, 3 } })
+    { std::vector<double>{ 3, 3, 3 }, { 1, infinity, 2 }, { NaN, NaN, NaN }, { 3, NaN, 3 } })
   {
     vtkNew<vtkOtsuThreshold> otsu;
-    otsu->SetInputData(RowOf<vtkDoubleArray>(values));
+    otsu->SetInputData(RowOf(values, VTK_DOUBLE));
     ExpectErrorOf(otsu, { "array 'Voxels'" });
     EXPECT_TRUE(std::isnan(otsu->GetThreshold()));
     EXPECT_EQ(otsu->GetOutput()->GetNumberOfColumns(), 0);
-    otsu->SetInputData(RowOf<vtkDoubleArray>(std::vector<double>{ 1, 2 }));
+    otsu->SetInputData(RowOf({ 1, 2 }, VTK_DOUBLE));
     otsu->Update();
     EXPECT_EQ(otsu->GetErrorCode(), vtkErrorCode::NoError);
     EXPECT_EQ(otsu->GetOutput()->GetNumberOfRows(), 1);
   }
-}
-
-TEST(VolumeToSurface, SegmentsWithDefaultSettings)
-{
-  const auto filter = Updated<vtkVolumeToSurface>(BallImage(40, 40, 40));
-  ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.5);
-  EXPECT_EQ(StopReason(filter->GetOutput()), "converged");
 }
 
 TEST(VolumeToSurface, IsIdenticalToPyramidAndSurface)

@@ -58,14 +58,6 @@ class LabelsViewTest(testing.PluginTestCase):
         difference = numpy.abs(pixels.astype(int) - expected).max(axis=2)
         self.assertLess(int((difference > 16).sum()), 20)
 
-    def test_all_blocks_have_their_colors(self):
-        self.show()
-        # In the first picture.
-        self.assertEqual(hues(self.picture("first")), {"red", "green", "blue"})
-        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
-        self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
-        self.check_legend([3, 7, 12])
-
     def legend_is_shown(self):
         return self.display.IsScalarBarVisible(self.view)
 
@@ -92,6 +84,8 @@ class LabelsViewTest(testing.PluginTestCase):
         self.filter.Labels = [7, 12]
         self.assertEqual(hues(self.picture("two")), {"green", "blue"})
         self.check_legend([7, 12])
+        self.assertEqual(list(self.display.ColorArrayName), ["CELLS", "Label"])
+        self.assertTrue(self.display.LookupTable.InterpretValuesAsCategories)
         other = label_maps.add_names(label_maps.image(), OTHER_NAMES, OTHER_COLORS)
         self.filter.Input = testing.produce(other)
         self.picture("other")
@@ -166,6 +160,10 @@ class LabelsViewTest(testing.PluginTestCase):
         both = simple.Show(simple.GroupDatasets(Input=[self.filter, second]), self.view)
         simple.ColorBy(both, ("CELLS", "Label"))
         self.assertEqual(legend(both), {})
+        for proxy in (both.Input, clipped.Input, self.filter):
+            simple.Delete(proxy)
+        self.picture("one-map-deleted")
+        self.check_legend([3, 7, 12], OTHER_NAMES, OTHER_COLORS, others)
 
     def test_saved_state(self):
         path = testing.write_volume("labels-view.vti", label_maps.image())

@@ -8,10 +8,7 @@ pvbatch runs it.
 
 import faulthandler
 import os
-import socket
-import subprocess
 import sys
-import threading
 import unittest
 
 import numpy
@@ -33,39 +30,8 @@ ISO_VALUE = 160.0
 SECONDS = 600  # limit of a test, to report deadlocks of processes
 
 
-def connect_to_server():
-    """Return a pvserver with several processes, which ends with its client."""
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        port = probe.getsockname()[1]
-    # Without the variables of MPI of this process.
-    environment = {name: value for name, value in os.environ.items()
-                   if not name.startswith(("OMPI_", "OPAL_", "ORTE_", "PMIX_"))}
-    server = subprocess.Popen(
-        [os.environ["VOLUMIC_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-n", str(SERVER),
-         plugin_testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
-        env=environment, preexec_fn=plugin_testing.end_with_parent)
-    printed = []
-    for line in server.stdout:
-        printed.append(line)
-        if "Accepting connection" in line:
-            break
-    else:
-        raise RuntimeError("pvserver ended: " + "".join(printed))
-    # Ignore its later output.
-    threading.Thread(target=server.stdout.read, daemon=True).start()
-    if not simple.Connect("localhost", port):
-        raise RuntimeError("no connection to pvserver")
-    return server
-
-
-def numbers(array):
-    return vtk_to_numpy(array)
-
-
 def triangles(surface):
-    return numbers(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
+    return vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
 
 
 def make_surface(**properties):
@@ -78,7 +44,12 @@ class ParallelTest(unittest.TestCase):
     def setUpClass(cls):
         plugin_testing.load_plugin()
         if SERVER:
-            cls.server = connect_to_server()
+            # Without the variables of MPI of this process.
+            environment = {name: value for name, value in os.environ.items()
+                           if not name.startswith(("OMPI_", "OPAL_", "ORTE_", "PMIX_"))}
+            cls.server = plugin_testing.connect_to_server(
+                os.environ["VOLUMIC_MPIRUN"], "--allow-run-as-root", "--oversubscribe", "-n",
+                str(SERVER), env=environment)
             plugin_testing.load_plugin(remote=True)
         cls.count = (SERVER or
                      vtkMultiProcessController.GetGlobalController().GetNumberOfProcesses())
@@ -107,15 +78,15 @@ class ParallelTest(unittest.TestCase):
 
     def check_surface(self, surface):
         """Check that the surface is bit-identical to that of one process."""
-        numpy.testing.assert_array_equal(numbers(surface.GetPoints().GetData()),
-                                         numbers(self.whole.GetPoints().GetData()))
+        numpy.testing.assert_array_equal(plugin_testing.points(surface),
+                                         plugin_testing.points(self.whole))
         numpy.testing.assert_array_equal(triangles(surface), triangles(self.whole))
         for data, of in ((surface.GetPointData(), self.whole.GetPointData()),
                          (surface.GetCellData(), self.whole.GetCellData())):
             for i in range(of.GetNumberOfArrays()):
                 name = of.GetArrayName(i)
-                numpy.testing.assert_array_equal(numbers(data.GetArray(name)),
-                                                 numbers(of.GetArray(name)), name)
+                numpy.testing.assert_array_equal(vtk_to_numpy(data.GetArray(name)),
+                                                 vtk_to_numpy(of.GetArray(name)), name)
             self.assertFalse(data.HasArray("vtkGhostType"))
 
     def check_blocks(self, output, names):
@@ -146,11 +117,6 @@ class ParallelTest(unittest.TestCase):
                              plugin_testing.field(self.whole, name))
         self.assertEqual(plugin_testing.fetch(surface, 2).GetNumberOfRows(),
                          self.alone.GetHistory().GetNumberOfRows())
-
-    def test_the_surface_of_a_pyramid(self):
-        pyramid = simple.ImagePyramid(simple.Wavelet(WholeExtent=EXTENT))
-        self.check_surface(plugin_testing.fetch(
-            simple.DeformableSurface(pyramid, IsoValue=ISO_VALUE)))
 
     def test_downstream_filters(self):
         cleaned = plugin_testing.fetch(simple.Clean(make_surface()))
@@ -211,17 +177,6 @@ class ParallelTest(unittest.TestCase):
                                            IsoValue=ISO_VALUE)
         surface.UpdatePipeline()
         self.assertGreater(surface.GetDataInformation().GetNumberOfCells(), 1000)
-
-    def test_good_run_after_error(self):
-        surface = make_surface()
-        surface.SeedRadius = -1.0
-        with plugin_testing.CapturedMessages() as messages:
-            surface.UpdatePipeline()
-        if not SERVER:
-            self.assertIn("Seed Radius is -1", messages.text)
-        self.assertEqual(surface.GetDataInformation().GetNumberOfCells(), 0)
-        surface.SeedRadius = 0.0
-        self.check_surface(plugin_testing.fetch(surface))
 
 
 plugin_testing.main()

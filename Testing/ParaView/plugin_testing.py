@@ -6,7 +6,10 @@ import ctypes
 import importlib
 import os
 import signal
+import socket
+import subprocess
 import sys
+import threading
 import unittest
 
 import numpy
@@ -31,6 +34,29 @@ def end_with_parent():
     """For preexec_fn of Popen: let the program end with the test, also if ctest kills the test."""
     PR_SET_PDEATHSIG = 1
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+
+
+def connect_to_server(*launcher, **options):
+    """Connect to a new pvserver, and return it. launcher: command that starts it; options: of Popen."""
+    with socket.socket() as probe:
+        probe.bind(("localhost", 0))
+        port = probe.getsockname()[1]
+    server = subprocess.Popen(
+        [*launcher, program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
+        preexec_fn=end_with_parent, **options)
+    printed = []
+    for line in server.stdout:
+        printed.append(line)
+        if "Accepting connection" in line:
+            break
+    else:
+        raise RuntimeError("pvserver ended: " + "".join(printed))
+    # Ignore its later output.
+    threading.Thread(target=server.stdout.read, daemon=True).start()
+    if not simple.Connect("localhost", port):
+        raise RuntimeError("no connection to pvserver")
+    return server
 
 
 def output_path(name):
@@ -106,28 +132,10 @@ def points(surface):
     return vtk_to_numpy(surface.GetPoints().GetData())
 
 
-def stop_after_the_tenth(algorithm):
-    """Stop the algorithm at its tenth report of an iteration. Return the observer."""
-    reports = []
-
-    def progress(*_):
-        if "iteration" in (algorithm.GetProgressText() or ""):
-            reports.append(algorithm.GetProgressText())
-        if len(reports) == 10:
-            algorithm.SetAbortExecuteAndUpdateTime()
-    return algorithm.AddObserver("ProgressEvent", progress)
-
-
-def delete_sources(but=None):
-    """Delete all sources except one, downstream ones first."""
+def delete_sources():
+    """Delete all sources, downstream ones first."""
     for source in reversed(list(simple.GetSources().values())):
-        if source != but:
-            simple.Delete(source)
-
-
-def delete_views():
-    for view in simple.GetViews():
-        simple.Delete(view)
+        simple.Delete(source)
 
 
 def levels(pyramid):
@@ -163,29 +171,16 @@ class CapturedMessages:
 
 
 class PluginTestCase(unittest.TestCase):
-    """Loads the plugin. Deletes views and sources after each test, except `kept`."""
-
-    kept = None
+    """Loads the plugin. Deletes views and sources after each test."""
 
     @classmethod
     def setUpClass(cls):
         load_plugin()
 
-    @classmethod
-    def tearDownClass(cls):
-        delete_views()
-        delete_sources()
-
     def tearDown(self):
-        delete_views()
-        delete_sources(but=self.kept)
-
-    def check_one_error(self, filter_):
-        """Run a filter that fails. Return its output and its messages."""
-        with CapturedMessages() as messages:
-            output = fetch(filter_)
-        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
-        return output, messages.text
+        for view in simple.GetViews():
+            simple.Delete(view)
+        delete_sources()
 
 
 def main(*names):

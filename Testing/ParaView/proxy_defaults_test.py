@@ -181,29 +181,21 @@ class ProxyDefaultsTest(unittest.TestCase):
                     self.assertEqual(held.GetElement(4) if held else "RTData", "RTData")
         testing.delete_sources()
 
-    def test_a_uniform_volume_is_one_error(self):
-        volume = simple.Calculator(simple.Wavelet(), ResultArrayName="Three", Function="3")
-        with testing.CapturedMessages() as messages:
-            simple.VolumetoSurface(simple.PassArrays(volume, PointDataArrays=["Three"]))
-            self.assertEqual(messages.text, "")
-            simple.GetActiveSource().UpdatePipeline()
-        self.assertEqual(messages.text.count("ERROR: "), 1, messages.text)
-        self.assertIn("all voxels are 3, so no value separates", messages.text)
-        testing.delete_sources()
+    def set_list(self, proxy, name, values):
+        held = proxy.GetProperty(name)
+        held.SetNumberOfElements(len(values))
+        for i, value in enumerate(values):
+            held.SetElement(i, value)
+        proxy.UpdateVTKObjects()
 
     def test_lists_of_positions_reach_the_object(self):
         for name in ("DeformableSurface", "VolumeToSurface"):
             proxy = self.new_proxy("filters", name)
+            object_ = proxy.GetClientSideObject()
             for list_ in ("SeedPosition", "AttractingPosition"):
-                with self.subTest(proxy=name, property=list_):
-                    held = proxy.GetProperty(list_ + "s")
-                    object_ = proxy.GetClientSideObject()
-                    self.assertEqual(held.GetNumberOfElements(), 0)
-                    for numbers in ([1.5, 2, -3, 4, 5, 6e9], [7, 8, 9], []):
-                        held.SetNumberOfElements(len(numbers))
-                        for i, number in enumerate(numbers):
-                            held.SetElement(i, number)
-                        proxy.UpdateVTKObjects()
+                for numbers in ([1.5, 2, -3, 4, 5, 6e9], [7, 8, 9], []):
+                    with self.subTest(proxy=name, property=list_, numbers=numbers):
+                        self.set_list(proxy, list_ + "s", numbers)
                         found = []
                         for i in range(getattr(object_, f"GetNumberOf{list_}s")()):
                             position = [0.0, 0.0, 0.0]
@@ -214,30 +206,18 @@ class ProxyDefaultsTest(unittest.TestCase):
     def test_the_scratch_directory_reaches_the_object(self):
         for name in ("DeformableSurface", "ImagePyramid", "VolumeToSurface"):
             proxy = self.new_proxy("filters", name)
-            held = proxy.GetProperty("ScratchDirectory")
-            object_ = proxy.GetClientSideObject()
-            self.assertEqual((held.GetElement(0), object_.GetScratchDirectory()), ("", ""))
-            held.SetElement(0, "/some/folder")
-            proxy.UpdateVTKObjects()
-            self.assertEqual(object_.GetScratchDirectory(), "/some/folder")
+            for folder in ("", "/some/folder"):
+                self.set_list(proxy, "ScratchDirectory", [folder])
+                self.assertEqual(proxy.GetClientSideObject().GetScratchDirectory(), folder)
 
     def test_lists_of_labels_reach_the_object(self):
         proxy = self.new_proxy("filters", "LabelsToSurfaces")
         object_ = proxy.GetClientSideObject()
-        held = proxy.GetProperty("Labels")
-        self.assertEqual((held.GetNumberOfElements(), object_.GetNumberOfLabels()), (0, 0))
         for labels in ([3, -1, 70000], [5], []):
-            held.SetNumberOfElements(len(labels))
-            for i, label in enumerate(labels):
-                held.SetElement(i, label)
-            proxy.UpdateVTKObjects()
+            self.set_list(proxy, "Labels", labels)
             found = {object_.GetLabel(i) for i in range(object_.GetNumberOfLabels())}
             self.assertEqual(found, set(labels))
-        names = proxy.GetProperty("LabelNames")
         for given in (["3", "liver", "-1", "a b"], []):
-            names.SetNumberOfElements(len(given))
-            for i, text in enumerate(given):
-                names.SetElement(i, text)
-            proxy.UpdateVTKObjects()
+            self.set_list(proxy, "LabelNames", given)
             found = [object_.GetLabelName(label) or "" for label in (3, -1)]
             self.assertEqual(found, given[1::2] or ["", ""])

@@ -2,56 +2,19 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The plugin in a pvserver, and in this script as its client."""
 
-import socket
-import subprocess
-import time
 import unittest
 
 from paraview import servermanager
 from paraview import simple
-from paraview.vtk.util.numpy_support import vtk_to_numpy
 
 import label_maps
 import plugin_testing as testing
 import volume_reader_test as files
 
 
-def free_port():
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
-
-
-def start_server():
-    """Start a pvserver that waits for a client. Return it and its port."""
-    printed = []
-    for _ in range(20):
-        port = free_port()
-        server = subprocess.Popen(
-            [testing.program("pvserver"), f"--server-port={port}", "--force-offscreen-rendering"],
-            stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True,
-            preexec_fn=testing.end_with_parent)
-        for line in server.stdout:
-            printed.append(line)
-            if "Accepting connection" in line:
-                return server, port
-        server.wait()
-    raise RuntimeError("pvserver ended: " + "".join(printed))
-
-
 def outputs_of(filter_):
     filter_.UpdatePipeline()
     return [servermanager.Fetch(filter_, idx=port) for port in range(4)]
-
-
-def points(surface):
-    return vtk_to_numpy(surface.GetPoints().GetData()).tobytes()
-
-
-def wavelet_pyramid():
-    source = simple.Wavelet()
-    source.UpdatePipeline()
-    return simple.ImagePyramid(Input=source, NumberOfLevels=3)
 
 
 def wavelet_to_surface():
@@ -71,18 +34,12 @@ class RemoteServerTest(unittest.TestCase):
     def setUpClass(cls):
         # Expected outputs, by the built-in server.
         testing.load_plugin()
-        cls.local = testing.fetch(wavelet_pyramid())
         filter_ = wavelet_to_surface()
         cls.local_iso_value = filter_.IsoValue
         cls.local_outputs = outputs_of(filter_)
         cls.label_map = testing.write_volume("labels-remote.vti", label_maps.image())
         cls.local_labels = testing.fetch(labels_to_surfaces(cls.label_map))
-        cls.server, port = start_server()
-        deadline = time.monotonic() + 600
-        while not simple.Connect("localhost", port):
-            if time.monotonic() > deadline:
-                raise RuntimeError("no connection to pvserver")
-            time.sleep(0.2)
+        cls.server = testing.connect_to_server()
         testing.load_plugin(remote=True)
 
     @classmethod
@@ -94,22 +51,8 @@ class RemoteServerTest(unittest.TestCase):
         cls.server.wait()
         cls.server.stdout.close()
 
-    def test_same_pyramid_as_without_a_server(self):
-        filter_ = wavelet_pyramid()
-        self.assertIsNone(filter_.GetClientSideObject(), "the filter runs on the server")
-        remote = testing.fetch(filter_)
-        self.assertEqual(remote.GetNumberOfBlocks(), 3)
-        for here, there in zip(testing.levels(self.local), testing.levels(remote)):
-            # The transfer to the client moves the extent to 0, and the origin with it.
-            self.assertEqual(here.GetDimensions(), there.GetDimensions())
-            self.assertEqual(here.GetBounds(), there.GetBounds())
-            for name in ("Level", "Unit"):
-                self.assertEqual(here.GetFieldData().GetArray(name).GetTuple1(0),
-                                 there.GetFieldData().GetArray(name).GetTuple1(0))
-            self.assertEqual(testing.voxels(here, "RTData").tobytes(),
-                             testing.voxels(there, "RTData").tobytes())
-        information = filter_.GetDataInformation()
-        self.assertEqual(information.GetCompositeDataClassName(), "vtkMultiBlockDataSet")
+    def check_same_points(self, surface, expected):
+        self.assertEqual(testing.points(surface).tobytes(), testing.points(expected).tobytes())
 
     def test_same_surface_as_without_a_server(self):
         filter_ = wavelet_to_surface()
@@ -119,13 +62,13 @@ class RemoteServerTest(unittest.TestCase):
         surface, levels, history, snapshots = outputs_of(filter_)
         here = self.local_outputs
         self.assertGreater(surface.GetNumberOfPolys(), 0)
-        self.assertEqual(points(surface), points(here[0]))
+        self.check_same_points(surface, here[0])
         self.assertEqual(levels.GetNumberOfBlocks(), here[1].GetNumberOfBlocks())
         self.assertEqual(history.GetNumberOfRows(), here[2].GetNumberOfRows())
         self.assertEqual(history.GetNumberOfColumns(), here[2].GetNumberOfColumns())
         self.assertEqual(testing.names(snapshots), testing.names(here[3]))
         for there, local in zip(testing.levels(snapshots), testing.levels(here[3])):
-            self.assertEqual(points(there), points(local))
+            self.check_same_points(there, local)
 
     def test_histogram_beside_iso_value(self):
         source = simple.Wavelet()
@@ -148,7 +91,7 @@ class RemoteServerTest(unittest.TestCase):
         self.assertEqual(testing.names(remote), ["Label 3", "kidney"])
         for here, there in zip(testing.levels(self.local_labels), testing.levels(remote)):
             self.assertGreater(there.GetNumberOfPolys(), 0)
-            self.assertEqual(points(there), points(here))
+            self.check_same_points(there, here)
         # The colour map of the client has the names and colours of the server.
         view = simple.CreateView("RenderView")
         display = simple.Show(filter_, view)
@@ -164,6 +107,6 @@ class RemoteServerTest(unittest.TestCase):
         surfaces = simple.LabelstoSurfaces(reader, FinestLevel=1)
         self.assertEqual(testing.names(testing.fetch(surfaces)), ["liver", "left kidney", "spleen"])
         path = testing.output_path("remote.glb")
-        servermanager.writers.ExportSurfaces(Input=surfaces, FileName=path).UpdatePipeline()
+        simple.SaveData(path, surfaces)  # as File > Save Data
         with open(path, "rb") as file:
             self.assertIn(b"left kidney", file.read())

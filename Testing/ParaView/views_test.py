@@ -8,7 +8,7 @@ from paraview import simple
 import plugin_testing as testing
 import view_testing as views
 
-LEVELS, SNAPSHOTS = 1, 3
+SURFACE, LEVELS, HISTORY, SNAPSHOTS = range(4)
 
 
 def ball(size, radius, centre=0.0):
@@ -37,6 +37,17 @@ class ColoursTest(testing.PluginTestCase):
         simple.Render(self.view)
         return self.display.LookupTable
 
+    def test_outputs_are_plain_surfaces_and_a_chart(self):
+        for port in (SURFACE, LEVELS, SNAPSHOTS):
+            display = simple.Show(simple.OutputPort(self.filter, port), self.view)
+            self.assertEqual(display.Representation, "Surface")
+            self.assertTrue(display.UseSeparateColorMap)
+            self.assertFalse(display.ColorArrayName[1])
+        # ParaView's own chart draws the table.
+        curves = simple.Show(simple.PlotData(simple.OutputPort(self.filter, HISTORY)),
+                             simple.CreateView("XYChartView"))
+        self.assertIn("Vertices", curves.SeriesVisibility)
+
     def test_components_have_a_colour_each(self):
         colours = self.coloured_by("Component", "CELLS")
         self.assertTrue(colours.InterpretValuesAsCategories)
@@ -60,16 +71,6 @@ class ColoursTest(testing.PluginTestCase):
         self.assertEqual(list(colours.Annotations)[1::2], [str(n) for n in range(10)] + ["others"])
         self.assertEqual(list(colours.IndexedColors)[-3:], list(colours.NanColor))
         views.picture_of(self.view, "colours-many-components.png")
-
-    def test_shared_colour_maps_do_not_change(self):
-        other = simple.Calculator(simple.Wavelet(), ResultArrayName="Component", Function="RTData")
-        display = simple.Show(other, self.view)
-        display.SetRepresentationType("Surface")
-        simple.ColorBy(display, ("POINTS", "Component"))
-        before = list(display.LookupTable.RGBPoints)
-        self.coloured_by("Component", "CELLS")
-        self.assertNotEqual(display.LookupTable, self.display.LookupTable)
-        self.assertEqual(list(display.LookupTable.RGBPoints), before)
 
 
 class BlocksTest(testing.PluginTestCase):

@@ -66,12 +66,6 @@ def segmentation():
                  header + content + b"\n" + gzip.compress(label_maps.values().tobytes()))
 
 
-def meta():
-    directions = "0 1 0 -1 0 0 0 0 1"  # axis by axis
-    return write("turned.mha", medical_files.meta_header(voxels(), SPACING, ORIGIN, directions)
-                 + voxels().tobytes())
-
-
 def dicom(name="series"):
     """Write a file for each slice, and return their folder."""
     for number, pixels in enumerate(voxels()):
@@ -92,22 +86,11 @@ class VolumeReaderTest(testing.PluginTestCase):
         name = image.GetPointData().GetScalars().GetName()
         numpy.testing.assert_array_equal(testing.voxels(image, name), voxels())
 
-    def test_formats(self):
-        for path in (nifti(), nifti("turned.nii"), meta()):
-            with self.subTest(path=path):
-                self.check(simple.VolumicVolume(FileNames=[path]))
-
-    def test_dicom(self):
+    def test_positions_and_voxels(self):
+        self.check(simple.VolumicVolume(FileNames=[nifti()]))
         folder = dicom()
         self.check(simple.VolumicDICOM(FileName=folder))
         self.check(simple.VolumicDICOM(FileName=os.path.join(folder, "007.dcm")))
-
-    def test_names_and_colours_of_labels(self):
-        surfaces = simple.LabelstoSurfaces(simple.VolumicVolume(FileNames=[segmentation()]))
-        blocks = testing.fetch(surfaces)
-        self.assertEqual(testing.names(blocks), ["liver", "left kidney", "spleen"])
-        color = blocks.GetBlock(2).GetFieldData().GetArray("LabelColor").GetTuple3(0)
-        numpy.testing.assert_allclose(color, (0.2, 0.2, 0.8))
 
     def test_series_in_time(self):
         paths = [nifti(f"t{i}.nii.gz", voxels() + i) for i in range(3)]
@@ -175,34 +158,23 @@ class VolumeReaderTest(testing.PluginTestCase):
         self.assertEqual(shown_of(of_filter.text), "Time Limit is -1. Set it to 0 (none) or more seconds.")
 
     def test_a_folder_of_ome_zarr(self):
-        zarr = importlib.import_module("zarr")
+        tools = importlib.import_module("test_ome_zarr")
         path = testing.output_path("organs.zarr")
         shutil.rmtree(path, ignore_errors=True)
-        group = zarr.open_group(path, mode="w")
-        create = getattr(group, "create_array", None) or group.create_dataset # as zarr 2 calls it
-        values = label_maps.values()
-        create("0", shape=values.shape, chunks=(16, 16, 16), dtype=values.dtype)[:] = values
-        group.attrs["multiscales"] = [{
-            "version": "0.4", "axes": [{"name": name, "type": "space", "unit": "micrometer"}
-                                       for name in "zyx"],
-            "datasets": [{"path": "0", "coordinateTransformations": [
-                {"type": "scale", "scale": [2, 0.75, 0.5]}]}]}]
+        group = tools.zarr.open_group(path, mode="w")
+        tools.add_array(group, "0", label_maps.values())
+        tools.describe(group, "zyx", [("0", [{"type": "scale", "scale": [2, 0.75, 0.5]}])])
         image = testing.fetch(simple.OpenDataFile(path))
         self.assertEqual(image.GetSpacing(), (0.5, 0.75, 2))
         name = image.GetPointData().GetScalars().GetName()
         numpy.testing.assert_array_equal(testing.voxels(image, name), label_maps.values())
 
-    def test_missing_library(self):
-        with unittest.mock.patch.dict(sys.modules, {"nibabel": None}), \
-                testing.CapturedMessages() as messages:
-            simple.VolumicVolume(FileNames=[nifti()]).UpdatePipeline()
-        self.assertIn("python3-nibabel", messages.text)
-        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
-
-    def test_damaged_file(self):
+    def test_missing_library_and_damaged_file(self):
         with open(nifti(), "rb") as file:
             path = write("cut.nii.gz", file.read()[:200])
-        with testing.CapturedMessages() as messages:
-            simple.VolumicVolume(FileNames=[path]).UpdatePipeline()
-        self.assertIn(path, messages.text)
-        self.assertEqual(messages.text.count("ERROR"), 1, messages.text)
+        for modules, file, reason in (({"nibabel": None}, nifti(), "python3-nibabel"), ({}, path, path)):
+            with unittest.mock.patch.dict(sys.modules, modules), \
+                    testing.CapturedMessages() as messages:
+                simple.VolumicVolume(FileNames=[file]).UpdatePipeline()
+            self.assertIn(reason, messages.text)
+            self.assertEqual(messages.text.count("ERROR"), 1, messages.text)

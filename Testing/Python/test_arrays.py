@@ -7,14 +7,11 @@ import pickle
 import subprocess
 import sys
 import unittest
-import unittest.mock
 import warnings
 
 import numpy as np
 import volumic
 from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkIOGeometry import vtkSTLReader
-from vtkmodules.vtkIOPLY import vtkPLYReader
 from volumic import arrays
 from volumic.reading import Volume
 
@@ -118,11 +115,6 @@ class SurfaceTest(unittest.TestCase):
             mask = volumic.surface(voxels > 125, 0.5)
         self.assertEqual(mask.report["Genus"], 1)
 
-    def test_upper_value_selects_a_range(self):
-        around = volumic.surface(ring_voxels(), 2 * ring_voxels().min() - 125.5, UpperValue=125.5)
-        dark = volumic.surface(ring_voxels(), 125.5, ObjectIsBright=False, Recovery=2)
-        self.assertAlmostEqual(around.report["Volume"] / dark.report["Volume"], 1, delta=0.01)
-
     def test_default_iso_value_is_otsu_with_warning(self):
         with self.assertWarnsRegex(UserWarning, "Otsu"):
             ring = volumic.surface(ring_voxels())
@@ -186,26 +178,13 @@ class FilesTest(FolderTestCase):
         self.ball = volumic.labels(two_balls(), [3], spacing=(1, 1, 2))[3]
 
     def test_formats(self):
-        triangles = len(self.ball.triangles)
-        self.ball.save(self.path("ball.vtp"))
-        self.assertEqual(read_file(self.path("ball.vtp")).GetNumberOfPolys(), triangles)
-        for suffix, reader in ((".ply", vtkPLYReader()), (".stl", vtkSTLReader())):
+        for suffix in (".vtp", ".ply", ".stl"):
             self.ball.save(self.path("ball" + suffix))
-            reader.SetFileName(self.path("ball" + suffix))
-            reader.Update()
-            there = reader.GetOutput()
-            self.assertEqual(there.GetNumberOfPolys(), triangles)
+            there = read_file(self.path("ball" + suffix))
+            self.assertEqual(there.GetNumberOfPolys(), len(self.ball.triangles))
             np.testing.assert_allclose(there.GetBounds(), self.ball.to_vtk().GetBounds(), atol=1e-5)
         with self.assertRaisesRegex(ValueError, "'.off' is not a surface format; use one of .vtp"):
             self.ball.save(self.path("ball.off"))
-
-    def test_failed_write_keeps_existing_file(self):
-        path = self.write_text("ball.vtp", "former")
-        with unittest.mock.patch("os.replace", side_effect=OSError("no")):
-            with self.assertRaises(OSError):
-                self.ball.save(path)
-        self.assertEqual(self.content("ball.vtp"), b"former")
-        self.assertEqual(os.listdir(self.folder), ["ball.vtp"])
 
     def test_save_all_labels(self):
         balls = volumic.labels(two_balls())
@@ -213,7 +192,3 @@ class FilesTest(FolderTestCase):
         self.assertEqual(sorted(os.listdir(self.path("balls"))), ["label-3.vtp", "label-7.vtp"])
         balls.save(self.path("balls.vtm"))
         self.assertTrue(os.path.exists(self.path("balls.vtm")))
-
-
-if __name__ == "__main__":
-    unittest.main()

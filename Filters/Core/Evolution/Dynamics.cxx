@@ -348,17 +348,15 @@ void Dynamics::Freeze(
         [&state](int w) { return (state.Marks[w] & HasMoved) != 0; });
     const auto isOff = [&](float least)
     { return this->TheField.IsOff(state.Mesh.Position[v], least * state.Sizing.At(v)); };
-    if (this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(ConvergedWithin))
-    {
-      state.Active[v] = 0;
-      state.Velocity[v] = Vector();
-    }
-    else if (moved && (state.Active[v] || !this->Leaves || isOff(LeftOff)))
+    const bool isLeftToRegularise =
+      this->Leaves && state.Active[v] && !state.NearOthers[v] && !isOff(ConvergedWithin);
+    if (!isLeftToRegularise && moved && (state.Active[v] || !this->Leaves || isOff(LeftOff)))
     {
       state.Activate(v);
     }
-    else if (this->Options.FreezeMotionlessVertices && state.Active[v] &&
-      ++state.ConvergedIterations[v] >= IterationsToConverge)
+    else if (isLeftToRegularise ||
+      (this->Options.FreezeMotionlessVertices && state.Active[v] &&
+        ++state.ConvergedIterations[v] >= IterationsToConverge))
     {
       state.Active[v] = 0;
       state.Velocity[v] = Vector();
