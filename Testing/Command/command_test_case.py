@@ -118,14 +118,6 @@ class CommandTestCase(FolderTestCase):
         """Return the parsed report of a run."""
         return json.loads(self.run_command(*arguments, "--report", "-", status=status).stdout)
 
-    def rejects_volume(self, name, reason, *options):
-        """Check that a volume is rejected in one line with its name, and that no surface is
-        written."""
-        process = self.run_command(self.path(name), self.path("out.stl"), "--iso", ISO, *options,
-                                   status=1)
-        self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
-        self.assertFalse(os.path.exists(self.path("out.stl")))
-
     def rejects(self, reason, *arguments, status=1, **options):
         """Check that the command ends with this status and one line that matches."""
         process = self.run_command(*arguments, status=status, **options)

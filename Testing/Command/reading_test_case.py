@@ -49,13 +49,3 @@ class ReadingTestCase(FolderTestCase):
         self.assertTrue(text.startswith(self.path(name)) and "\n" not in text, text)
         self.assertRegex(text[len(self.path(name)):], reason)
         self.assertLess(time.process_time() - used, SECONDS)
-
-    def rejects_with(self, name, content, changes):
-        """Check that content is read, but rejected with each change: (old bytes or offset, new
-        bytes, reason)."""
-        self.read(name, content)
-        for old, new, reason in changes:
-            offset = content.index(old) if isinstance(old, bytes) else old
-            length = len(old) if isinstance(old, bytes) else len(new)
-            with self.subTest(name, old=old, new=new[:30]):
-                self.rejects(name, reason, content[:offset] + new + content[offset + length:])

@@ -346,7 +346,3 @@ class CommandTest(CommandTestCase):
                                    preexec_fn=lambda: resource.setrlimit(
                                        resource.RLIMIT_AS, (1500 << 20, 1500 << 20)))
         self.assertRegex(process.stderr, "large.mha: not enough memory to read the volume; crop")
-
-
-if __name__ == "__main__":
-    unittest.main()
