@@ -19,6 +19,7 @@ import re
 import resource
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -58,20 +59,24 @@ class Outcome:
         return f"seed {self.seed} ({self.run.kind}, {size}): {'; '.join(remarks) or 'no exception'}"
 
 
-def run_command(program, run, outcome):
-    """Run the command with a limit on its processor time, so that other processes do not matter."""
+def run_command(program, run, outcome, arguments=None, interrupt=None):
+    """Run the command with a limit on its processor time, so that other processes do not matter.
+    Send SIGINT after `interrupt` seconds."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (MOST_SECONDS, MOST_SECONDS + 5))
         resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
     error_file = os.path.join(run.folder, "stderr")
     with open(error_file, "wb") as error:
-        process = subprocess.Popen([program, *run.arguments], cwd=run.folder, stderr=error,
-                                   stdout=subprocess.DEVNULL, preexec_fn=limit)
-    hung = threading.Timer(10 * MOST_SECONDS, process.kill)  # a run that waits
-    hung.start()
+        process = subprocess.Popen([program, *(arguments or run.arguments)], cwd=run.folder,
+                                   stderr=error, stdout=subprocess.DEVNULL, preexec_fn=limit)
+    timers = [threading.Timer(10 * MOST_SECONDS, process.kill),  # a run that waits
+              threading.Timer(interrupt or 1e5, process.send_signal, [signal.SIGINT])]
+    for timer in timers:
+        timer.start()
     _, status, usage = os.wait4(process.pid, 0)
-    hung.cancel()
+    for timer in timers:
+        timer.cancel()
     process.returncode = outcome.status = os.waitstatus_to_exitcode(status)
     outcome.seconds = usage.ru_utime + usage.ru_stime
     with open(error_file, encoding="utf-8", errors="replace") as error:
@@ -80,7 +85,7 @@ def run_command(program, run, outcome):
         outcome.exceptions.append(
             f"not finished in {MOST_SECONDS} s" if outcome.seconds > MOST_SECONDS - 1
             else f"ended by signal {-outcome.status}")
-    elif outcome.status not in (0, 1, 3):
+    elif outcome.status not in (0, 1, 3) or "Traceback" in outcome.messages:
         outcome.exceptions.append(f"exit status {outcome.status}: {outcome.refusal()}")
 
 
@@ -190,6 +195,19 @@ def check_status(outcome, folder):
         outcome.exceptions.append(f"no message for {reason}")
 
 
+def compare_threads(program, outcome, files):
+    """Run again with other numbers of threads; the files must be the same."""
+    def contents():
+        return [open(os.path.join(outcome.run.folder, file), "rb").read() for file in files]
+
+    first = contents()
+    for threads in "1237":
+        again = Outcome(outcome.seed, outcome.run)
+        run_command(program, again.run, again, [*again.run.arguments[:-1], threads])
+        if again.status != outcome.status or contents() != first:
+            outcome.exceptions.append(f"{threads} threads make other surfaces")
+
+
 def try_seed(seed, arguments, names):
     folder = os.path.join(arguments.folder, str(seed))
     shutil.rmtree(folder, ignore_errors=True)
@@ -198,10 +216,13 @@ def try_seed(seed, arguments, names):
     outcome = Outcome(seed, run)
     with open(os.path.join(folder, "command"), "w", encoding="utf-8") as file:
         file.write(shlex.join([arguments.program, *run.arguments]) + "\n")
-    run_command(arguments.program, run, outcome)
+    interrupt = 10 ** run.rng.uniform(-.5, 1) if seed % 3 == 1 else None
+    run_command(arguments.program, run, outcome, interrupt=interrupt)
     check_status(outcome, folder)
-    files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
-    judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
+    files = sorted(set(glob.glob("**/*.vtp", root_dir=folder, recursive=True)) - {"given.vtp"})
+    judge(arguments.judge, names, files, outcome)
+    if seed % 3 == 0 and "--time-limit" not in run.arguments:
+        compare_threads(arguments.program, outcome, files)
     if run.is_of_labels and (outcome.status == 0 or "all labels are empty" in outcome.messages):
         labels = set(run.labels.flat) - {0}
         outcome.exceptions += [f"label {label} has no surface" for label in
