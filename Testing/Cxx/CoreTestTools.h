@@ -4,6 +4,7 @@
 #define volumicCoreTestTools_h
 
 #include "Core/Evolution/InitialSurface.h"
+#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/LevelImage.h"
 #include "Core/Mesh/SurfaceCheck.h"
 #include "Core/Mesh/SurfaceMesh.h"
@@ -29,6 +30,13 @@ inline TestVolume MakeVolume(int n, const std::function<double(double, double, d
   volume.Image.Values = volume.Values.data();
   volume.Image.Size = { n, n, n };
   return volume;
+}
+
+inline SurfaceOptions WithIso(double iso)
+{
+  SurfaceOptions options;
+  options.IsoValue = iso;
+  return options;
 }
 
 /** Return 1 inside, 0 outside, with a ramp of two voxels; iso-value .5. */

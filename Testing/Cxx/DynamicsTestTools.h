@@ -5,7 +5,6 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Evolution/Dynamics.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Surface/Proximity.h"
 #include "LiveSurface.h"
 

@@ -4,7 +4,6 @@
 #define volumicEvolutionTestTools_h
 
 #include "Core/Evolution/Evolution.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "CoreTestTools.h"
 
 namespace volumic
@@ -40,9 +39,7 @@ struct LevelPair
 
 inline SurfaceOptions IsoHalf()
 {
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
-  return options;
+  return WithIso(0.5);
 }
 
 /** Default executor (one thread) and monitor (never cancels). */

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Common/Executor.h"
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/EdgeAttraction.h"
 #include "Core/Image/PointAttraction.h"
 #include "CoreTestTools.h"
@@ -10,19 +9,10 @@ using namespace volumic;
 
 namespace
 {
-Executor Threads;
-
 /** 100 for x < 6, 0 above, with a ramp of two voxels. */
 TestVolume Half()
 {
   return MakeVolume(33, [](double x, double, double) { return 100. * Soft(x - 6.); });
-}
-
-SurfaceOptions HalfOptions(double iso)
-{
-  SurfaceOptions options;
-  options.IsoValue = iso;
-  return options;
 }
 }
 
@@ -31,7 +21,7 @@ TEST(PointAttraction, AddsHalfStrengthAtRadius)
   // Value V = -50 relative to the iso-value, slope 50 per voxel: V + e (2 |V| + 50 / 4), e = 1/2.
   const TestVolume volume = Half();
   const std::vector<float> bent = PointAttraction({ { { 20, 16, 16 }, 1., 4. } }, 1.)
-                                    .Bend(volume.Image, HalfOptions(50), Threads);
+                                    .Bend(volume.Image, WithIso(50), OnThisThread());
   for (const std::array<int, 3>& voxel :
     { std::array<int, 3>{ 24, 16, 16 }, { 20, 12, 16 }, { 20, 16, 20 } })
   {
@@ -43,8 +33,8 @@ TEST(PointAttraction, ChangesOnlyVoxelsInRangeForAnyThreadCount)
 {
   const TestVolume volume = Half();
   const PointAttraction attraction({ { { 20, 16, 16 }, 1., 3. }, { { 22, 17, 15 }, 2., 4. } }, 1.);
-  const SurfaceOptions options = HalfOptions(50);
-  const std::vector<float> bent = attraction.Bend(volume.Image, options, Threads);
+  const SurfaceOptions options = WithIso(50);
+  const std::vector<float> bent = attraction.Bend(volume.Image, options, OnThisThread());
   Executor threads(3);
   EXPECT_EQ(bent, attraction.Bend(volume.Image, options, threads));
   int changed = 0;
@@ -67,7 +57,7 @@ TEST(EdgeAttraction, PointsToRidgeFromBothSidesAtAnyScale)
     TestVolume volume = MakeVolume(33,
       [scale](double x, double, double) { return scale * std::exp(-0.25 * (x - 16) * (x - 16)); });
     volume.Image.Edges = volume.Values.data();
-    const EdgeAttraction edges(volume.Image, Threads);
+    const EdgeAttraction edges(volume.Image, OnThisThread());
     const Vector out(1, 0, 0);
     EXPECT_GT(edges.Along(Vector(14.5f, 16, 16), out), 0.9f);
     EXPECT_LT(edges.Along(Vector(17.5f, 16, 16), out), -0.9f);

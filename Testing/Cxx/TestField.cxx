@@ -1,29 +1,16 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-#include "Core/Evolution/SurfaceOptions.h"
 #include "Core/Image/Field.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
-
-namespace
-{
-Executor Threads;
-
-SurfaceOptions WithIso(double iso)
-{
-  SurfaceOptions options;
-  options.IsoValue = iso;
-  return options;
-}
-}
 
 TEST(Field, IsTrilinearInComputationalSpace)
 {
   TestVolume volume =
     MakeVolume(8, [](double x, double y, double z) { return 1 + x + 2 * y + 3 * z + x * y * z; });
   volume.Image.Step = { 2., 5., 4. };
-  const Field field(volume.Image, WithIso(0.), Threads);
+  const Field field(volume.Image, WithIso(0.), OnThisThread());
   const Vector p(2 * 2.25f, 5 * 3.5f, 4 * 4.75f);
   const double expected = 1 + 2.25 + 7 + 14.25 + 2.25 * 3.5 * 4.75;
   EXPECT_NEAR(field.ValueAt(p), expected, 1e-4);
@@ -39,7 +26,7 @@ TEST(Field, GradientInterpolatesCentralDifferences)
   // The interpolated central difference of x^2 is 2 x; the derivative of the interpolant is not.
   const TestVolume volume =
     MakeVolume(10, [](double x, double y, double z) { return x * x + 2 * y * y - z * z; });
-  const Field field(volume.Image, WithIso(0.), Threads);
+  const Field field(volume.Image, WithIso(0.), OnThisThread());
   const Vector g = field.At(Vector(4.3f, 5.6f, 3.2f)).Gradient;
   EXPECT_NEAR(g.X, 8.6, 1e-4);
   EXPECT_NEAR(g.Y, 22.4, 1e-4);
@@ -54,7 +41,7 @@ TEST(Field, ReachesBackgroundWithinOneVoxelOfBorder)
       MakeVolume(8, [bright](double, double, double) { return bright ? 10. : 0.; });
     SurfaceOptions options = WithIso(4.);
     options.ObjectIsBright = bright;
-    const Field field(volume.Image, options, Threads);
+    const Field field(volume.Image, options, OnThisThread());
     EXPECT_GT(field.ValueAt(Vector(7, 4, 4)), 0);
     EXPECT_LT(field.ValueAt(Vector(8, 4, 4)), 0);
     EXPECT_LT(field.ValueAt(Vector(4, -1, 4)), 0);
@@ -75,7 +62,7 @@ TEST(Field, ReplicatesWithinMarginOfTwoUnits)
     SurfaceOptions options = WithIso(3.);
     options.ObjectIsBright = bright;
     options.BorderValue = Border::Replicate;
-    const Field field(volume.Image, options, Threads);
+    const Field field(volume.Image, options, OnThisThread());
     const float x = bright ? 9.f : 1.5f; // in the object
     EXPECT_GT(field.ValueAt(Vector(x, -3.f, 10)), 0);
     EXPECT_LT(field.ValueAt(Vector(x, -3.8f, 10)), 0) << "in the ramp";
@@ -98,7 +85,7 @@ TEST(Field, IsMinimalOutside)
     MakeVolume(8, [](double x, double, double) { return x < 4 ? 0. : 100.; });
   for (const double iso : { 99., 50., 1. })
   {
-    const Field field(volume.Image, WithIso(iso), Threads);
+    const Field field(volume.Image, WithIso(iso), OnThisThread());
     const float expected = static_cast<float>(-std::max(iso, 100 - iso));
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(4, 4, 20)), expected);
     EXPECT_FLOAT_EQ(field.ValueAt(Vector(-1, 4, 4)), expected);
@@ -119,7 +106,7 @@ TEST(Field, MeasuresSlopeAtIsosurface)
       });
     volume.Image.Step = { 1., 1., 1. };
     volume.Image.Step[axis] = 2.5;
-    const Field field(volume.Image, WithIso(17.), Threads);
+    const Field field(volume.Image, WithIso(17.), OnThisThread());
     EXPECT_NEAR(field.TypicalSlope(), 2, 1e-4) << "along axis " << axis;
     EXPECT_FLOAT_EQ(field.Lowest(), -17);
   }

@@ -23,17 +23,9 @@ double Beyond(const SurfaceResult& surface, const LevelImage& image)
 
 SurfaceOptions Replicating()
 {
-  SurfaceOptions options;
-  options.IsoValue = 0.5;
+  SurfaceOptions options = IsoHalf();
   options.BorderValue = Border::Replicate;
   return options;
-}
-
-/** Rod along x that crosses the image. */
-TestVolume Rod()
-{
-  return MakeVolume(
-    16, [](double, double y, double z) { return Soft(std::hypot(y - 8., z - 8.) - 4.); });
 }
 
 /** Return the largest valid distance: margin, ramp and delta. */
@@ -50,7 +42,9 @@ double Most(const LevelImage& image, double delta)
 
 TEST(ImageMargin, ReplicatedObjectClosesAtMargin)
 {
-  TestVolume volume = Rod();
+  // A rod along x that crosses the image.
+  TestVolume volume = MakeVolume(
+    16, [](double, double y, double z) { return Soft(std::hypot(y - 8., z - 8.) - 4.); });
   for (const double step : { 1., 2.5 }) // the margin is at least one voxel
   {
     volume.Image.Step[0] = step;

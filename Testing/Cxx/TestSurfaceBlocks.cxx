@@ -27,12 +27,9 @@ SurfaceBlocks::Frame FrameAbout(const SurfaceMesh& mesh, float side)
 {
   const Box bounds = BoundsOf(mesh, Thread);
   const Vector extent = bounds.High - bounds.Low;
-  SurfaceBlocks::Frame frame;
-  frame.Low = bounds.Low;
-  frame.Side = { side, side, side };
-  frame.Size = { static_cast<int>(std::ceil(extent.X / side)),
-    static_cast<int>(std::ceil(extent.Y / side)), static_cast<int>(std::ceil(extent.Z / side)) };
-  return frame;
+  const auto blocks = [side](float length) { return static_cast<int>(std::ceil(length / side)); };
+  return { bounds.Low, { side, side, side },
+    { blocks(extent.X), blocks(extent.Y), blocks(extent.Z) } };
 }
 
 /** Return the alive vertices of a block. */
@@ -214,12 +211,12 @@ TEST(SurfaceBlocks, RejectEditsOutsideRegion)
 
 TEST(SurfaceBlocks, RejectIntersectingSurfaces)
 {
+  // A surface without normals is tested in all directions.
   SurfaceState state;
   state.Sizing = SizingField(1.f);
   state.Mesh = Balls(2);
-  const SurfaceBlocks::Frame frame = FrameAbout(state.Mesh, 10.f);
   state.Reset(Vector(-20, -20, -20), Vector(40, 40, 40));
-  SurfaceBlocks blocks(state, frame, Thread);
+  SurfaceBlocks blocks(state, FrameAbout(state.Mesh, 10.f), Thread);
   const int before = state.Mesh.NumberOfVertices();
   // One ball intersects the second ball, the other intersects none.
   SurfaceMesh added;

@@ -13,7 +13,7 @@ std::string ErrorOf(const IndexedSurface& surface)
   return ErrorMessageOf([&] { CheckInitialSurface(surface); });
 }
 
-/** The error of a surface that no mesh can have. */
+/** Return the error of a surface with invalid topology, which SurfaceMesh rejects, too. */
 std::string ErrorOfTopology(const IndexedSurface& surface)
 {
   EXPECT_THROW(MeshOf(surface), std::invalid_argument);

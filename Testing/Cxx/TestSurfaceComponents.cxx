@@ -19,7 +19,7 @@ IndexedSurface Ball(const Point& centre, double radius, bool isCavity = false)
   return isCavity ? InsideOut(ball) : ball;
 }
 
-/** A surface of these components, with delta 1. */
+/** Surface of several components, with delta 1. */
 struct Scene : SurfaceState
 {
   explicit Scene(const std::vector<IndexedSurface>& components)

@@ -15,20 +15,6 @@ int CountFaults(const TestEvolution& evolution)
   return !DescribeBrokenInvariant(mesh).empty() + CountSelfIntersections(surface, 1) +
     (mesh.CountEulerCharacteristic() != evolution.History().back().EulerCharacteristic);
 }
-
-TestVolume NoisyTorus(int n)
-{
-  std::mt19937 engine(3);
-  std::normal_distribution<double> noise(0., 0.2);
-  return MakeVolume(n,
-    [&, n](double x, double y, double z)
-    {
-      const double q =
-        std::sqrt((x - n / 2.) * (x - n / 2.) + (y - n / 2.) * (y - n / 2.)) - 0.28 * n;
-      return Soft(std::sqrt(q * q + (z - n / 2.) * (z - n / 2.)) - 0.12 * n) + noise(engine);
-    });
-}
-
 }
 
 TEST(SurfaceEvolution, IsValidInLongBox)
@@ -54,7 +40,15 @@ TEST(SurfaceEvolution, IsValidInLongBox)
 
 TEST(SurfaceEvolution, IsValidAfterEachSweep)
 {
-  const TestVolume volume = NoisyTorus(36);
+  // A noisy torus.
+  std::mt19937 engine(3);
+  std::normal_distribution<double> noise(0., 0.2);
+  const TestVolume volume = MakeVolume(36,
+    [&](double x, double y, double z)
+    {
+      const double q = std::hypot(x - 18, y - 18) - 10.08;
+      return Soft(std::hypot(q, z - 18) - 4.32) + noise(engine);
+    });
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   int calls = 0;
   int faults = 0;

@@ -6,19 +6,6 @@
 
 using namespace volumic;
 
-namespace
-{
-double MeanResidual(const SurfaceResult& surface)
-{
-  double sum = 0;
-  for (const float x : surface.Residual)
-  {
-    sum += std::abs(x);
-  }
-  return sum / static_cast<double>(surface.Residual.size());
-}
-}
-
 TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
 {
   const TestVolume volume = BallVolume(28, 8);
@@ -31,7 +18,10 @@ TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const SurfaceResult surface = evolution.Result();
-    residual[snap] = MeanResidual(surface);
+    for (const float x : surface.Residual)
+    {
+      residual[snap] += std::abs(x) / static_cast<double>(surface.Residual.size());
+    }
     ExpectLegalEdges(surface);
     EXPECT_EQ(CountSelfIntersections(surface), 0);
     const double volumeOfBall = 4. / 3. * 3.14159265 * 512.;

@@ -16,18 +16,13 @@ double Work(const TestEvolution& evolution)
   }
   return work;
 }
-
-TestVolume Noise(int n, unsigned seed)
-{
-  std::mt19937 engine(seed);
-  return MakeVolume(
-    n, [&engine](double, double, double) { return static_cast<double>(engine()) / 4294967296.; });
-}
 }
 
 TEST(Termination, StopsNoiseAsLimitCycle)
 {
-  const TestVolume volume = Noise(20, 5);
+  std::mt19937 engine(5);
+  const TestVolume volume = MakeVolume(
+    20, [&engine](double, double, double) { return static_cast<double>(engine()) / 4294967296.; });
   SurfaceOptions options = IsoHalf();
   options.Friction = 0.3;
   options.ConvergenceTolerance = 0.;
