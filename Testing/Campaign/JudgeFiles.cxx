@@ -5,7 +5,7 @@
  * Judge surfaces in files with CGAL and with code that is independent of Volumic. Print a line for
  * each file; --help prints the names of the columns.
  *
- *     JudgeFiles [--map MAP.vti] FILE.vtp...
+ *     JudgeFiles [--map MAP.vti | --box MAP.vti] FILE.vtp...
  *
  * Edges and close pairs are judged by the delta in the field data, or by the deltas at the points
  * of a graded surface. These are world units only for Metric World. Without deltas the columns are
@@ -13,12 +13,14 @@
  *
  * With a map, the files are surfaces of its labels, named by the field data `Label`. They are also
  * judged together and against the voxels: `wrong` counts misclassified voxels, `on` those whose
- * centres are on the surface and may be on either side.
+ * centres are on the surface and may be on either side. `solideuler`, `solids` and `hollows` are
+ * the topology of the label by its voxels. With --box the map ends at the sides of a box.
  */
 
 #include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
+#include "VoxelTopology.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -55,6 +57,7 @@ struct NamedSurface : TriangleSurface
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
   std::size_t CentresOn = 0;  ///< voxels with centres on the surface
   std::size_t MisclassifiedVoxels = 0;
+  volumic::BlockTopology Voxels;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -174,14 +177,48 @@ TriangleSurface Together(const std::vector<NamedSurface>& surfaces)
   return all;
 }
 
-void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile)
+/** Return the topology of each label by its voxels. Merged labels count as the first of them. */
+std::map<double, volumic::BlockTopology> TopologiesOf(
+  vtkImageData* map, const std::set<double>& merged, bool isInBox)
+{
+  std::vector<double> labels;
+  std::map<double, int> numbers = { { 0., 0 } };
+  for (vtkIdType v = 0; v < map->GetNumberOfPoints(); ++v)
+  {
+    const double label = map->GetPointData()->GetScalars()->GetTuple1(v);
+    labels.push_back(merged.count(label) > 0 ? *merged.begin() : label);
+    numbers.emplace(labels.back(), 0);
+  }
+  int count = 0;
+  for (auto& number : numbers)
+  {
+    number.second = count++;
+  }
+  volumic::Voxel size;
+  map->GetDimensions(size.data());
+  auto label = labels.begin();
+  const volumic::VoxelLabels voxels(
+    size, [&](int, int, int) { return numbers.at(*label++); }, isInBox ? count : -1);
+  std::map<int, volumic::BlockTopology> counts = voxels.Voxels().Count();
+  std::map<double, volumic::BlockTopology> topologies;
+  for (const auto& [name, number] : numbers)
+  {
+    topologies[name] = counts[number];
+  }
+  return topologies;
+}
+
+void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile, bool isInBox)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(mapFile.c_str());
   reader->Update();
   const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
+  const auto merged = surfaces.size() == 1 ? surfaces[0].Labels : std::set<double>();
+  auto topologies = TopologiesOf(reader->GetOutput(), merged, isInBox);
   for (NamedSurface& surface : surfaces)
   {
+    surface.Voxels = topologies[*surface.Labels.begin()];
     FindMisclassifiedVoxels(surface, reader->GetOutput());
     surface.Crossing = crossing;
   }
@@ -212,7 +249,8 @@ void Judge(const NamedSurface& surface)
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
             << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
-            << surface.MisclassifiedVoxels << std::endl;
+            << surface.MisclassifiedVoxels << ' ' << surface.Voxels.Euler << ' '
+            << surface.Voxels.Components << ' ' << surface.Voxels.Cavities << std::endl;
 }
 }
 
@@ -222,11 +260,12 @@ int main(int count, char** words)
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
                  "components euler genus area volume edges short long near ratio ratio01 "
-                 "ratiomin cavities crossing on wrong\n";
+                 "ratiomin cavities crossing on wrong solideuler solids hollows\n";
     return 0;
   }
   std::cout << std::setprecision(17);
-  const bool hasMap = count > 2 && std::string(words[1]) == "--map";
+  const bool isInBox = count > 2 && std::string(words[1]) == "--box";
+  const bool hasMap = isInBox || (count > 2 && std::string(words[1]) == "--map");
   try
   {
     std::vector<NamedSurface> surfaces;
@@ -236,7 +275,7 @@ int main(int count, char** words)
     }
     if (hasMap)
     {
-      JudgeLabels(surfaces, words[2]);
+      JudgeLabels(surfaces, words[2], isInBox);
     }
     for (const NamedSurface& surface : surfaces)
     {
