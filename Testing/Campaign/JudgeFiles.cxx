@@ -17,6 +17,7 @@
  * the topology of the label by its voxels. With --box the map ends at the sides of a box.
  */
 
+#include "ForVoxels.h"
 #include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
@@ -93,41 +94,33 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
   vtkNew<vtkTriangle> triangle;
   for (const std::array<int, 3>& corners : inIndices.Triangles)
   {
-    std::array<int, 3> low;
-    std::array<int, 3> high;
+    std::array<int, 3> low, end;
     for (int axis = 0; axis < 3; ++axis)
     {
       const auto at = [&](int c) { return inIndices.Points[corners[c]][axis]; };
       const auto [least, most] = std::minmax({ at(0), at(1), at(2) });
       low[axis] = std::max(0, static_cast<int>(std::ceil(least - tolerance)));
-      high[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(most + tolerance)));
+      end[axis] = std::min(size[axis], 1 + static_cast<int>(std::floor(most + tolerance)));
       triangle->GetPoints()->SetPoint(axis, inIndices.Points[corners[axis]].data());
     }
-    for (std::array<int, 3> v = low; v[2] <= high[2]; ++v[2])
-    {
-      for (v[1] = low[1]; v[1] <= high[1]; ++v[1])
+    volumic::ForBox(low, end,
+      [&](int i, int j, int k)
       {
-        for (v[0] = low[0]; v[0] <= high[0]; ++v[0])
+        const double centre[3] = { double(i), double(j), double(k) };
+        double nearest[3], parametric[3], weights[3], squared = 1.;
+        int part = 0;
+        triangle->EvaluatePosition(centre, nearest, part, parametric, squared, weights);
+        if (squared <= tolerance * tolerance)
         {
-          const double centre[3] = { double(v[0]), double(v[1]), double(v[2]) };
-          double nearest[3];
-          double parametric[3];
-          double weights[3];
-          double squared = 1.;
-          int part = 0;
-          triangle->EvaluatePosition(centre, nearest, part, parametric, squared, weights);
-          if (squared <= tolerance * tolerance)
-          {
-            found.insert(v);
-          }
+          found.insert({ i, j, k });
         }
-      }
-    }
+      });
   }
   return found.size();
 }
 
-void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
+void FindMisclassifiedVoxels(
+  NamedSurface& surface, vtkImageData* map, const std::vector<double>& labels)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -141,8 +134,7 @@ void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
-    const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
-    surface.MisclassifiedVoxels += (surface.Labels.count(label) != 0) != (enclosed[v] != 0);
+    surface.MisclassifiedVoxels += (surface.Labels.count(labels[v]) != 0) != (enclosed[v] != 0);
   }
 }
 
@@ -177,49 +169,26 @@ TriangleSurface Together(const std::vector<NamedSurface>& surfaces)
   return all;
 }
 
-/** Return the topology of each label by its voxels. Merged labels count as the first of them. */
-std::map<double, volumic::BlockTopology> TopologiesOf(
-  vtkImageData* map, const std::set<double>& merged, bool isInBox)
-{
-  std::vector<double> labels;
-  std::map<double, int> numbers = { { 0., 0 } };
-  for (vtkIdType v = 0; v < map->GetNumberOfPoints(); ++v)
-  {
-    const double label = map->GetPointData()->GetScalars()->GetTuple1(v);
-    labels.push_back(merged.count(label) > 0 ? *merged.begin() : label);
-    numbers.emplace(labels.back(), 0);
-  }
-  int count = 0;
-  for (auto& number : numbers)
-  {
-    number.second = count++;
-  }
-  volumic::Voxel size;
-  map->GetDimensions(size.data());
-  auto label = labels.begin();
-  const volumic::VoxelLabels voxels(
-    size, [&](int, int, int) { return numbers.at(*label++); }, isInBox ? count : -1);
-  std::map<int, volumic::BlockTopology> counts = voxels.Voxels().Count();
-  std::map<double, volumic::BlockTopology> topologies;
-  for (const auto& [name, number] : numbers)
-  {
-    topologies[name] = counts[number];
-  }
-  return topologies;
-}
-
 void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile, bool isInBox)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(mapFile.c_str());
   reader->Update();
-  const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
+  vtkImageData* map = reader->GetOutput();
+  std::vector<double> labels;
+  for (vtkIdType v = 0; v < map->GetNumberOfPoints(); ++v)
+  {
+    labels.push_back(map->GetPointData()->GetScalars()->GetTuple1(v));
+  }
+  std::array<int, 3> size;
+  map->GetDimensions(size.data());
   const auto merged = surfaces.size() == 1 ? surfaces[0].Labels : std::set<double>();
-  auto topologies = TopologiesOf(reader->GetOutput(), merged, isInBox);
+  auto topologies = volumic::TopologiesOf(size, labels, merged, isInBox);
+  const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
   for (NamedSurface& surface : surfaces)
   {
     surface.Voxels = topologies[*surface.Labels.begin()];
-    FindMisclassifiedVoxels(surface, reader->GetOutput());
+    FindMisclassifiedVoxels(surface, map, labels);
     surface.Crossing = crossing;
   }
 }

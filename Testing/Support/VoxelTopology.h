@@ -349,6 +349,34 @@ struct VoxelLabels
   }
   VoxelTopology Voxels() const { return { this->Size, this->Labels, this->RankOf }; }
 };
+
+/** Return the topology of each label of a map, x fastest; 0 is background. Merged labels count as
+   the first of them. @param isInBox whether the map ends at the sides of a box */
+inline std::map<double, BlockTopology> TopologiesOf(
+  const Voxel& size, std::vector<double> labels, const std::set<double>& merged, bool isInBox)
+{
+  std::map<double, int> numbers = { { 0., 0 } };
+  for (double& label : labels)
+  {
+    label = merged.count(label) > 0 ? *merged.begin() : label;
+    numbers.emplace(label, 0);
+  }
+  int count = 0;
+  for (auto& number : numbers)
+  {
+    number.second = count++;
+  }
+  auto next = labels.begin();
+  const VoxelLabels voxels(
+    size, [&](int, int, int) { return numbers.at(*next++); }, isInBox ? count : -1);
+  std::map<int, BlockTopology> counts = voxels.Voxels().Count();
+  std::map<double, BlockTopology> topologies;
+  for (const auto& [label, number] : numbers)
+  {
+    topologies[label] = counts[number];
+  }
+  return topologies;
+}
 }
 
 #endif
