@@ -5,7 +5,7 @@
  * Judge surfaces in files with CGAL and with code that is independent of Volumic. Print a line for
  * each file; --help prints the names of the columns.
  *
- *     JudgeFiles [--map MAP.vti] FILE.vtp...
+ *     JudgeFiles [--map MAP.vti | --box MAP.vti] FILE.vtp...
  *
  * Edges and close pairs are judged by the delta in the field data, or by the deltas at the points
  * of a graded surface. These are world units only for Metric World. Without deltas the columns are
@@ -13,12 +13,15 @@
  *
  * With a map, the files are surfaces of its labels, named by the field data `Label`. They are also
  * judged together and against the voxels: `wrong` counts misclassified voxels, `on` those whose
- * centres are on the surface and may be on either side.
+ * centres are on the surface and may be on either side. `solideuler`, `solids` and `hollows` are
+ * the topology of the label by its voxels. With --box the map ends at the sides of a box.
  */
 
+#include "ForVoxels.h"
 #include "MisclassifiedVoxels.h"
 #include "SupportVtkConversions.h"
 #include "SurfaceJudge.h"
+#include "VoxelTopology.h"
 
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
@@ -55,6 +58,7 @@ struct NamedSurface : TriangleSurface
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
   std::size_t CentresOn = 0;  ///< voxels with centres on the surface
   std::size_t MisclassifiedVoxels = 0;
+  volumic::BlockTopology Voxels;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -90,41 +94,33 @@ std::size_t CountCentresOn(const TriangleSurface& inIndices, const std::array<in
   vtkNew<vtkTriangle> triangle;
   for (const std::array<int, 3>& corners : inIndices.Triangles)
   {
-    std::array<int, 3> low;
-    std::array<int, 3> high;
+    std::array<int, 3> low, end;
     for (int axis = 0; axis < 3; ++axis)
     {
       const auto at = [&](int c) { return inIndices.Points[corners[c]][axis]; };
       const auto [least, most] = std::minmax({ at(0), at(1), at(2) });
       low[axis] = std::max(0, static_cast<int>(std::ceil(least - tolerance)));
-      high[axis] = std::min(size[axis] - 1, static_cast<int>(std::floor(most + tolerance)));
+      end[axis] = std::min(size[axis], 1 + static_cast<int>(std::floor(most + tolerance)));
       triangle->GetPoints()->SetPoint(axis, inIndices.Points[corners[axis]].data());
     }
-    for (std::array<int, 3> v = low; v[2] <= high[2]; ++v[2])
-    {
-      for (v[1] = low[1]; v[1] <= high[1]; ++v[1])
+    volumic::ForBox(low, end,
+      [&](int i, int j, int k)
       {
-        for (v[0] = low[0]; v[0] <= high[0]; ++v[0])
+        const double centre[3] = { double(i), double(j), double(k) };
+        double nearest[3], parametric[3], weights[3], squared = 1.;
+        int part = 0;
+        triangle->EvaluatePosition(centre, nearest, part, parametric, squared, weights);
+        if (squared <= tolerance * tolerance)
         {
-          const double centre[3] = { double(v[0]), double(v[1]), double(v[2]) };
-          double nearest[3];
-          double parametric[3];
-          double weights[3];
-          double squared = 1.;
-          int part = 0;
-          triangle->EvaluatePosition(centre, nearest, part, parametric, squared, weights);
-          if (squared <= tolerance * tolerance)
-          {
-            found.insert(v);
-          }
+          found.insert({ i, j, k });
         }
-      }
-    }
+      });
   }
   return found.size();
 }
 
-void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
+void FindMisclassifiedVoxels(
+  NamedSurface& surface, vtkImageData* map, const std::vector<double>& labels)
 {
   TriangleSurface inIndices = surface;
   for (std::size_t p = 0; p < surface.Points.size(); ++p)
@@ -138,8 +134,7 @@ void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, size);
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
-    const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
-    surface.MisclassifiedVoxels += (surface.Labels.count(label) != 0) != (enclosed[v] != 0);
+    surface.MisclassifiedVoxels += (surface.Labels.count(labels[v]) != 0) != (enclosed[v] != 0);
   }
 }
 
@@ -174,15 +169,26 @@ TriangleSurface Together(const std::vector<NamedSurface>& surfaces)
   return all;
 }
 
-void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile)
+void JudgeLabels(std::vector<NamedSurface>& surfaces, const std::string& mapFile, bool isInBox)
 {
   vtkNew<vtkXMLImageDataReader> reader;
   reader->SetFileName(mapFile.c_str());
   reader->Update();
+  vtkImageData* map = reader->GetOutput();
+  std::vector<double> labels;
+  for (vtkIdType v = 0; v < map->GetNumberOfPoints(); ++v)
+  {
+    labels.push_back(map->GetPointData()->GetScalars()->GetTuple1(v));
+  }
+  std::array<int, 3> size;
+  map->GetDimensions(size.data());
+  const auto merged = surfaces.size() == 1 ? surfaces[0].Labels : std::set<double>();
+  auto topologies = volumic::TopologiesOf(size, labels, merged, isInBox);
   const std::size_t crossing = JudgeIntersections(Together(surfaces)).Pairs;
   for (NamedSurface& surface : surfaces)
   {
-    FindMisclassifiedVoxels(surface, reader->GetOutput());
+    surface.Voxels = topologies[*surface.Labels.begin()];
+    FindMisclassifiedVoxels(surface, map, labels);
     surface.Crossing = crossing;
   }
 }
@@ -212,7 +218,8 @@ void Judge(const NamedSurface& surface)
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
             << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
-            << surface.MisclassifiedVoxels << std::endl;
+            << surface.MisclassifiedVoxels << ' ' << surface.Voxels.Euler << ' '
+            << surface.Voxels.Components << ' ' << surface.Voxels.Cavities << std::endl;
 }
 }
 
@@ -222,11 +229,12 @@ int main(int count, char** words)
   {
     std::cout << "points triangles closed manifold oriented outward intersections flat unused "
                  "components euler genus area volume edges short long near ratio ratio01 "
-                 "ratiomin cavities crossing on wrong\n";
+                 "ratiomin cavities crossing on wrong solideuler solids hollows\n";
     return 0;
   }
   std::cout << std::setprecision(17);
-  const bool hasMap = count > 2 && std::string(words[1]) == "--map";
+  const bool isInBox = count > 2 && std::string(words[1]) == "--box";
+  const bool hasMap = isInBox || (count > 2 && std::string(words[1]) == "--map");
   try
   {
     std::vector<NamedSurface> surfaces;
@@ -236,7 +244,7 @@ int main(int count, char** words)
     }
     if (hasMap)
     {
-      JudgeLabels(surfaces, words[2]);
+      JudgeLabels(surfaces, words[2], isInBox);
     }
     for (const NamedSurface& surface : surfaces)
     {

@@ -130,13 +130,12 @@ def faults_of_edges(verdict, fields, arguments):
 def judge(program, names, files, outcome):
     if not files:
         return
-    the_map = ["--map", "volume.vti"] if outcome.run.is_of_labels else []
+    kind = "--box" if "flat" in outcome.run.arguments else "--map"
+    the_map = [kind, "volume.vti"] if outcome.run.is_of_labels else []
     judged = subprocess.run([program, *the_map, *files], cwd=outcome.run.folder,
                             capture_output=True, text=True, check=False)
     if judged.returncode:
         outcome.exceptions.append(f"judge: {judged.stderr.strip()}")
-    topology = (outcome.run.topology() if outcome.run.is_of_labels and
-                "--keep" not in outcome.run.arguments and outcome.status == 0 else {})
     for path, line in zip(files, judged.stdout.splitlines()):
         verdict = dict(zip(names, map(float, line.split())))
         fields = field_data(os.path.join(outcome.run.folder, path))
@@ -149,8 +148,7 @@ def judge(program, names, files, outcome):
         run = outcome.run
         found = [*faults(verdict, fields), *faults_of_edges(verdict, fields, run.arguments)]
         if outcome.run.is_of_labels:
-            found += [*faults_of_label(verdict, fields, outcome),
-                      *faults_of_topology(verdict, topology.get(fields["Label"]))]
+            found += faults_of_label(verdict, fields, outcome)
             outcome.found.update(fields["Labels"])
         outcome.exceptions += [f"{path} ({fields.get('StopReason', 'snapshot')}): {fault}"
                                for fault in found]
@@ -166,14 +164,10 @@ def faults_of_label(verdict, fields, outcome):
                                f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
     if abs(verdict["wrong"] - fields["WrongVoxels"]) > verdict["on"]:
         yield f"WrongVoxels {fields['WrongVoxels']}, judged as {verdict['wrong']:g}"
-
-
-def faults_of_topology(verdict, expected):
-    """Compare the topology of a surface with that of its voxels."""
-    found = (verdict["euler"] / 2, verdict["components"] - verdict["cavities"], verdict["cavities"])
-    if expected and found != expected:
-        yield ("Euler characteristic, components, cavities: "
-               f"{found[0]:g} {found[1]:g} {found[2]:g}, expected {expected}")
+    found = verdict["euler"] / 2, verdict["components"] - verdict["cavities"], verdict["cavities"]
+    expected = verdict["solideuler"], verdict["solids"], verdict["hollows"]
+    if found != expected and outcome.status == 0 and "--keep" not in run.arguments:
+        yield f"Euler characteristic, components, cavities: {found}, expected {expected}"
 
 
 def check_status(outcome, folder):

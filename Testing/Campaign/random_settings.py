@@ -12,7 +12,6 @@ from vtkmodules.vtkCommonTransforms import vtkTransform
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter, vtkXMLPolyDataWriter
 
 import random_volumes
-from voxel_topology import topology_of
 
 
 def write(writer, data, folder, name):
@@ -70,12 +69,6 @@ class RandomRun:
         return [
             "labels.vtp" if merge else "labels", "--labels", chosen, *["--merge"] * merge,
             *smoothing, *other, *box, *self.now_and_then(.3, "--metric", "voxels"), *tolerance]
-
-    def topology(self):
-        """Return the topology of each label by its voxels; of the first one if all are merged."""
-        first = self.labels[self.labels > 0].min()
-        labels = np.where(self.labels > 0, first, 0) if "--merge" in self.arguments else self.labels
-        return topology_of(labels, "flat" in self.arguments)
 
     # ---- The surface of an object ----
 

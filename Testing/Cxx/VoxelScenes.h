@@ -9,59 +9,17 @@
 #include "VoxelTopology.h"
 
 #include <sstream>
-#include <tuple>
 
 /** Label maps and tests of their meshes. */
 namespace volumic
 {
-using Voxel = VoxelTopology::Voxel;
-
-/** Labels in a box whose outermost layer is background. */
-struct VoxelScene
+/** A label map and its dual mesh. */
+struct VoxelScene : VoxelLabels
 {
-  Voxel Size;
-  std::vector<int> Labels; ///< x fastest
-  std::vector<int> RankOf;
+  using VoxelLabels::VoxelLabels;
+
   std::array<double, 3> Spacing = { 1., 1., 1. };
-  int Outside = -1;
 
-  /** Create inner voxels and a layer around them. Ranks: fewest voxels first, background last. */
-  template <typename LabelAt>
-  VoxelScene(const Voxel& inner, LabelAt&& labelAt, int outside = -1)
-    : Size({ inner[0] + 2, inner[1] + 2, inner[2] + 2 }), Outside(outside)
-  {
-    ForVoxels(this->Size,
-      [&](int i, int j, int k)
-      {
-        const bool isIn =
-          i > 0 && j > 0 && k > 0 && i <= inner[0] && j <= inner[1] && k <= inner[2];
-        this->Labels.push_back(isIn ? labelAt(i - 1, j - 1, k - 1) : std::max(outside, 0));
-      });
-    this->RankByCount();
-  }
-
-  int NumberOfLabels() const
-  {
-    return 1 + *std::max_element(this->Labels.begin(), this->Labels.end());
-  }
-
-  void RankByCount()
-  {
-    std::vector<long long> counts(static_cast<std::size_t>(this->NumberOfLabels()), 0);
-    for (const int label : this->Labels)
-    {
-      ++counts[static_cast<std::size_t>(label)];
-    }
-    std::vector<int> order(counts.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto key = [&](int label)
-    {
-      return std::make_tuple(
-        label == this->Outside, label == 0, counts[static_cast<std::size_t>(label)]);
-    };
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
-    this->RankInOrder(order);
-  }
   void RankAtRandom(unsigned seed)
   {
     std::vector<int> order(this->RankOf.size());
@@ -69,20 +27,6 @@ struct VoxelScene
     std::shuffle(order.begin(), order.end(), std::mt19937(seed));
     this->RankInOrder(order);
   }
-  void RankInOrder(const std::vector<int>& order)
-  {
-    this->RankOf.resize(order.size());
-    for (std::size_t n = 0; n < order.size(); ++n)
-    {
-      this->RankOf[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
-    }
-  }
-
-  int At(int i, int j, int k) const
-  {
-    return this->Labels[static_cast<std::size_t>(i + this->Size[0] * (j + this->Size[1] * k))];
-  }
-  VoxelTopology Voxels() const { return { this->Size, this->Labels, this->RankOf }; }
 
   DualGrid Grid() const
   {

@@ -3,16 +3,22 @@
 #ifndef volumicVoxelTopology_h
 #define volumicVoxelTopology_h
 
-#include "Core/Common/DisjointSets.h"
 #include "ForVoxels.h"
-#include "TestPrelude.h"
 
+#include <algorithm>
+#include <array>
 #include <climits>
+#include <map>
+#include <numeric>
 #include <ostream>
+#include <set>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 /**
  * Topology of labels, computed from the voxels and the documented connectivity. Shares no code with
- * DualMesh.
+ * the tested module.
  */
 namespace volumic
 {
@@ -64,7 +70,7 @@ public:
   {
     std::map<int, BlockTopology> counts;
     std::map<int, std::array<Voxel, 2>> boxes; // bounding boxes with a margin of one voxel
-    DisjointSets parts(this->Labels.size());
+    Sets parts(this->Labels.size());
     const Voxel end = { this->Size[0] - 1, this->Size[1] - 1, this->Size[2] - 1 };
     this->ForBox({ 0, 0, 0 }, end,
       [&](int v)
@@ -114,6 +120,29 @@ public:
   }
 
 private:
+  /** Sets of numbers from 0. The root of a set is its smallest member. */
+  struct Sets
+  {
+    explicit Sets(std::size_t n) : Parent(n)
+    {
+      std::iota(this->Parent.begin(), this->Parent.end(), 0);
+    }
+    int Find(int i)
+    {
+      while (this->Parent[i] != i)
+      {
+        i = this->Parent[i] = this->Parent[this->Parent[i]];
+      }
+      return i;
+    }
+    void Join(int i, int j)
+    {
+      const auto [low, high] = std::minmax({ this->Find(i), this->Find(j) });
+      this->Parent[high] = low;
+    }
+    std::vector<int> Parent;
+  };
+
   using Ring = std::array<int, 4>;    ///< around an edge, in cyclic order
   using Octants = std::array<int, 8>; ///< around a corner; bit 0 of the index is along x
 
@@ -202,7 +231,7 @@ private:
   {
     const Voxel size = { end[0] - first[0], end[1] - first[1], end[2] - first[2] };
     const Voxel stride = { 1, size[0], size[0] * size[1] };
-    DisjointSets parts(static_cast<std::size_t>(stride[2] * size[2]));
+    Sets parts(static_cast<std::size_t>(stride[2] * size[2]));
     const auto isOther = [&](int v) { return this->LabelOf(v) != label; };
     int local = -1; // number in the box
     this->ForBox(first, end,
@@ -257,6 +286,97 @@ private:
   Voxel Stride;
   std::vector<int> Labels;
 };
+
+using Voxel = VoxelTopology::Voxel;
+
+/** Labels in a box whose outermost layer is background. */
+struct VoxelLabels
+{
+  Voxel Size;
+  std::vector<int> Labels; ///< x fastest
+  std::vector<int> RankOf;
+  int Outside = -1;
+
+  /** Create inner voxels and a layer around them. Ranks: fewest voxels first, background last. */
+  template <typename LabelAt>
+  VoxelLabels(const Voxel& inner, LabelAt&& labelAt, int outside = -1)
+    : Size({ inner[0] + 2, inner[1] + 2, inner[2] + 2 }), Outside(outside)
+  {
+    ForVoxels(this->Size,
+      [&](int i, int j, int k)
+      {
+        const bool isIn =
+          i > 0 && j > 0 && k > 0 && i <= inner[0] && j <= inner[1] && k <= inner[2];
+        this->Labels.push_back(isIn ? labelAt(i - 1, j - 1, k - 1) : std::max(outside, 0));
+      });
+    this->RankByCount();
+  }
+
+  int NumberOfLabels() const
+  {
+    return 1 + *std::max_element(this->Labels.begin(), this->Labels.end());
+  }
+
+  void RankByCount()
+  {
+    std::vector<long long> counts(static_cast<std::size_t>(this->NumberOfLabels()), 0);
+    for (const int label : this->Labels)
+    {
+      ++counts[static_cast<std::size_t>(label)];
+    }
+    std::vector<int> order(counts.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto key = [&](int label)
+    {
+      return std::make_tuple(
+        label == this->Outside, label == 0, counts[static_cast<std::size_t>(label)]);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return key(a) < key(b); });
+    this->RankInOrder(order);
+  }
+  void RankInOrder(const std::vector<int>& order)
+  {
+    this->RankOf.resize(order.size());
+    for (std::size_t n = 0; n < order.size(); ++n)
+    {
+      this->RankOf[static_cast<std::size_t>(order[n])] = static_cast<int>(n);
+    }
+  }
+
+  int At(int i, int j, int k) const
+  {
+    return this->Labels[static_cast<std::size_t>(i + this->Size[0] * (j + this->Size[1] * k))];
+  }
+  VoxelTopology Voxels() const { return { this->Size, this->Labels, this->RankOf }; }
+};
+
+/** Return the topology of each label of a map, x fastest; 0 is background. Merged labels count as
+   the first of them. @param isInBox whether the map ends at the sides of a box */
+inline std::map<double, BlockTopology> TopologiesOf(
+  const Voxel& size, std::vector<double> labels, const std::set<double>& merged, bool isInBox)
+{
+  std::map<double, int> numbers = { { 0., 0 } };
+  for (double& label : labels)
+  {
+    label = merged.count(label) > 0 ? *merged.begin() : label;
+    numbers.emplace(label, 0);
+  }
+  int count = 0;
+  for (auto& number : numbers)
+  {
+    number.second = count++;
+  }
+  auto next = labels.begin();
+  const VoxelLabels voxels(
+    size, [&](int, int, int) { return numbers.at(*next++); }, isInBox ? count : -1);
+  std::map<int, BlockTopology> counts = voxels.Voxels().Count();
+  std::map<double, BlockTopology> topologies;
+  for (const auto& [label, number] : numbers)
+  {
+    topologies[label] = counts[number];
+  }
+  return topologies;
+}
 }
 
 #endif
