@@ -6,19 +6,6 @@
 
 using namespace volumic;
 
-namespace
-{
-double MeanResidual(const SurfaceResult& surface)
-{
-  double sum = 0;
-  for (const float x : surface.Residual)
-  {
-    sum += std::abs(x);
-  }
-  return sum / static_cast<double>(surface.Residual.size());
-}
-}
-
 TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
 {
   const TestVolume volume = BallVolume(28, 8);
@@ -31,7 +18,8 @@ TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
     evolution.StartEnclosing(volume.Image, 0);
     EXPECT_EQ(evolution.Run(), StopReason::Converged);
     const SurfaceResult surface = evolution.Result();
-    residual[snap] = MeanResidual(surface);
+    residual[snap] = std::accumulate(surface.Residual.begin(), surface.Residual.end(), 0.,
+      [&](double sum, float x) { return sum + std::abs(x) / surface.Residual.size(); });
     ExpectLegalEdges(surface);
     EXPECT_EQ(CountSelfIntersections(surface), 0);
     const double volumeOfBall = 4. / 3. * 3.14159265 * 512.;
