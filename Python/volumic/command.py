@@ -34,7 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
         console.error(f"{one_line(str(error))}\nTry 'volumic --help'.")
         return WRONG_USAGE
     except Failure as error:
-        console.error("\nvolumic: ".join(one_line(line) for line in str(error).splitlines()))
+        text = command_line.with_file_name(str(error), options)
+        console.error("\nvolumic: ".join(map(one_line, text.splitlines())))
     except KeyboardInterrupt:
         console.error("interrupted before a surface was computed; no file was written")
     except MemoryError:

@@ -240,10 +240,18 @@ def with_option_names(message: str) -> str:
     return _PHRASES.sub(_option_name, message)
 
 
+def with_file_name(message: str, options: argparse.Namespace) -> str:
+    """Replace the input at the start of an error of a filter by its file."""
+    name, colon, rest = message.partition(": ")
+    file = {"the volume": options.volume, "--attracting-points": options.attracting_points,
+            "--initial-surface": options.seeds or options.initial_surface}.get(name)
+    return f"{file or name}{colon}{rest}"
+
+
 def _option_name(match: re.Match[str]) -> str:
     switch, label, verb, state = match.groups("")
     option, value = _LABELS[label]
-    if value is None or (value and not state):
+    if value is None or not state:
         return match.group().replace(label, option)
     is_given = (state == "on") == value
     if switch:
@@ -255,8 +263,8 @@ def _option_name(match: re.Match[str]) -> str:
 _LABELS = {re.sub(r"(?<=.)(?=[A-Z][a-z])", " ", item.name): (
     f"--{item.option}", None if item.metavar else item.value) for item in PROPERTIES}
 _LABELS.update({name: (text, None) for name, text in {
-    "Initial Surface (input port 1)": "--initial-surface", "Edge Map": "--edges",
-    "Attracting Points (input port 2)": "--attracting-points", "Input port 0": "the volume",
+    "Input port 1 (Initial Surface)": "--initial-surface", "Edge Map": "--edges",
+    "Input port 2 (Attracting Points)": "--attracting-points", "Input port 0": "the volume",
     "Seed Positions": "--seed-position", "Attracting Positions": "--attracting-position"}.items()})
 # Not within a word or a file name. Longer names first.
 _PHRASES = re.compile(r"(?:(?<=^)|(?<=[ (]))([Ss]witch )?(" + "|".join(

@@ -173,8 +173,8 @@ class Segmentation:
                 raise Interrupted("time limit reached before " + NO_RESULT)
             if run.interrupted:
                 raise Interrupted("interrupted before " + NO_RESULT)
-            raise Failure(f"the surface vanished; check that the object has image values "
-                          f"{self.object_range()} (--iso, --upper, --dark)")
+            raise Failure(f"{self.options.volume}: the surface vanished; check that the object has "
+                          f"image values {self.object_range()} (--iso, --upper, --dark)")
 
     def object_range(self) -> str:
         """Return the range of image values of the object, as text."""

@@ -118,7 +118,7 @@ def prefix_failures(path: str) -> Iterator[None]:
     try:
         yield
     except Failure as failure:
-        raise type(failure)(f"{path}: {failure}") from None
+        raise type(failure)(f"{path}: {str(failure).removeprefix('the volume: ')}") from None
 
 
 class LabelRun:

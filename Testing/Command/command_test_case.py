@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Common base of the tests of the installed command, whose path is VOLUMIC_PROGRAM."""
 
-import itertools
 import json
 import os
 import re
@@ -10,6 +9,7 @@ import resource
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -76,8 +76,6 @@ def largest_file(size):
 
 
 class CommandTestCase(FolderTestCase):
-    ways = itertools.repeat(())  # options used in turn
-
     def ball_file(self):
         return self.write(vtkXMLImageDataWriter(), "ball.vti", make_image(ball()))
 
@@ -89,16 +87,18 @@ class CommandTestCase(FolderTestCase):
             self.assertEqual(process.returncode, status, process.stdout + process.stderr)
         return process
 
-    def interrupted(self, pattern, *arguments):
-        """Return the messages after Ctrl-C, sent when a line matches the pattern. Repeat runs that
-        end earlier."""
+    def interrupted(self, pattern, *arguments, signals=(signal.SIGINT,)):
+        """Return the messages after Ctrl-C or these signals, sent when a line matches the pattern.
+        Repeat runs that end earlier."""
         command = [PROGRAM, *map(str, arguments), "--progress"]
         for _ in range(20):
             with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
                 for line in process.stderr:
                     if re.match(pattern, line):
                         break
-                process.send_signal(signal.SIGINT)
+                for number in signals:
+                    process.send_signal(number)
+                    time.sleep(0.02)
                 output = process.stderr.read()
             if process.returncode != 0:
                 self.assertEqual(process.returncode, 3, output)
@@ -117,17 +117,6 @@ class CommandTestCase(FolderTestCase):
     def report(self, *arguments, status=0):
         """Return the parsed report of a run."""
         return json.loads(self.run_command(*arguments, "--report", "-", status=status).stdout)
-
-    def rejects_volume(self, name, reason, *options):
-        """Check that a volume is rejected in one line with its name, and that no surface is
-        written."""
-        process = self.run_command(self.path(name), self.path("out.stl"), "--iso", ISO,
-                                *next(self.ways), *options, status=1)
-        self.assertRegex(process.stderr, f"^volumic: .*{name}.*({reason})[^\n]*\n$")
-        self.assertFalse(os.path.exists(self.path("out.stl")))
-
-    def accepted(self, name, *options):
-        self.run_command(self.path(name), self.path("ok.stl"), "--iso", ISO, *options)
 
     def rejects(self, reason, *arguments, status=1, **options):
         """Check that the command ends with this status and one line that matches."""

@@ -3,15 +3,11 @@
 """Tests of volumic.reading in this process: each file is read, or rejected in one line that names
 it."""
 
-import os
-import sys
 import time
 import warnings
 
 import numpy as np
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "Python"))
-# pylint: disable=wrong-import-position
 from command_test_case import ORIGIN, SPACING, ball
 from folder_test_case import FolderTestCase
 from volumic import reading
@@ -53,32 +49,3 @@ class ReadingTestCase(FolderTestCase):
         self.assertTrue(text.startswith(self.path(name)) and "\n" not in text, text)
         self.assertRegex(text[len(self.path(name)):], reason)
         self.assertLess(time.process_time() - used, SECONDS)
-
-    def rejects_with(self, name, content, changes):
-        """Check that content is read, but rejected with each change: (old bytes or offset, new
-        bytes, reason)."""
-        self.read(name, content)
-        for old, new, reason in changes:
-            offset = content.index(old) if isinstance(old, bytes) else old
-            length = len(old) if isinstance(old, bytes) else len(new)
-            with self.subTest(name, old=old, new=new[:30]):
-                self.rejects(name, reason, content[:offset] + new + content[offset + length:])
-
-    def rejects_truncated(self, name, content, reason="truncated|damaged",
-                          sizes=(0.1, 0.5, 0.9, -10, -1)):
-        """Check that a file is read, but rejected if truncated to each fraction or by each number
-        of bytes."""
-        self.read(name, content)
-        for size in sizes:
-            with self.subTest(name, size=size):
-                count = int(len(content) * size) if 0 < size < 1 else size
-                self.rejects(name, reason, content[:count])
-
-    def rejects_bit_flips(self, name, content, start):
-        """Check that compressed data with any bit flipped are rejected."""
-        generator = np.random.default_rng(6)
-        for offset in generator.integers(start, len(content), 30):
-            damaged = bytearray(content)
-            damaged[offset] ^= 1 << int(generator.integers(8))
-            with self.subTest(name, offset=offset):
-                self.rejects(name, "damaged|truncated|exceed|too long|missing", damaged)

@@ -3,7 +3,6 @@
 """Tests of `volumic --ends`."""
 
 import shutil
-import unittest
 from collections import Counter
 
 import numpy as np
@@ -163,7 +162,3 @@ class EndsTest(CommandTestCase):
         for ends in ("open", "marked"):
             surface, _, _ = self.surface("--iso", "0", "--ends", ends, volume=volume)
             np.testing.assert_array_equal(triangles_of(surface), triangles_of(whole))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,9 +3,7 @@
 """Tests that `volumic` finds a ball at its position in several volume formats, and that all mesh
 formats store the same surface."""
 
-import gzip
 import os
-import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -20,29 +18,20 @@ from command_test_case import (
     CENTRE, ISO, META, ORIGIN, RADIUS, SIZE, SPACING, TURNED, CommandTestCase, ball, dicom_slice,
     make_image)
 
-import medical_files
-
 
 class VolumesTest(CommandTestCase):
-    def check(self, volume, *options, direction=np.eye(3), spacing=SPACING, origin=ORIGIN, iso=ISO):
+    def check(self, volume, *options, direction=np.eye(3), origin=ORIGIN):
         """Check position and size of the ball in the report."""
-        report = self.report(volume, "--iso", iso, "--quiet", *options)
+        report = self.report(volume, "--iso", ISO, "--quiet", *options)
         self.assertEqual(report["input"]["dimensions"], SIZE.tolist())
-        np.testing.assert_allclose(report["input"]["spacing"], spacing, rtol=1e-9)
+        np.testing.assert_allclose(report["input"]["spacing"], SPACING, rtol=1e-9)
         self.assertEqual((report["components"], report["genus"]), (1, 0))
-        centre = origin + direction @ (spacing * CENTRE)
+        centre = origin + direction @ (SPACING * CENTRE)
         np.testing.assert_allclose(report["component_features"][0]["centroid"], centre, atol=0.05)
-        whole = 4 / 3 * np.pi * RADIUS ** 3 * np.prod(spacing / SPACING)
+        whole = 4 / 3 * np.pi * RADIUS ** 3
         # Vertices are on the sphere, triangles inside.
         self.assertTrue(0.94 < report["volume"] / whole < 1.0, report["volume"] / whole)
         return report
-
-    def test_files(self):
-        self.check(self.write(vtkXMLImageDataWriter(), "a.vti", make_image(ball(), direction=TURNED)),
-                   direction=TURNED)
-        content = medical_files.nifti(ball(), SPACING, offset=ORIGIN, slope=0.5, intercept=-100)
-        report = self.check(self.write_bytes("b.nii.gz", gzip.compress(content)), iso=ISO / 2 - 100)
-        self.assertEqual(report["input"]["range"], [ball().min() / 2 - 100, ball().max() / 2 - 100])
 
     def test_folders_and_patterns(self):
         for name in ("dicom", "png", "one"):
@@ -82,12 +71,6 @@ class VolumesTest(CommandTestCase):
             messages = self.run_command(file, self.path("a.stl"), "--iso", ISO, *way).stderr
             self.assertEqual(messages.count(f"{np.isnan(voxels).sum()} NaN voxels"), 1, messages)
         self.rejects("NaN voxels", file, self.path("b.stl"), "--refuse-nan", "--iso", ISO)
-
-    def test_single_slice_fails(self):
-        header = META.replace(b"NDims = 3", b"NDims = 2").replace(b"26 22 18", b"26 22").replace(
-            b"1 0 0 0 1 0 0 0 1", b"1 0 0 1").replace(b"0.5 0.75 1.0", b"0.5 0.75").replace(b" 9.5", b"")
-        self.rejects("the volume: the image is 2D .26 x 22 x 1", self.write_bytes(
-            "a.mha", header + ball()[8].tobytes()), self.path("a.stl"), "--iso", ISO)
 
 
 class ReportedTest(CommandTestCase):
@@ -142,7 +125,3 @@ class SurfacesTest(CommandTestCase):
                 self.assertEqual(surface.GetNumberOfPoints(), report["vertices"])
                 centre = np.array(surface.GetCenter())
                 np.testing.assert_allclose(centre, ORIGIN + SPACING * CENTRE, atol=0.1)
-
-
-if __name__ == "__main__":
-    unittest.main()

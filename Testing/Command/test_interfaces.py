@@ -5,7 +5,6 @@
 import json
 import os
 import re
-import unittest
 from collections import Counter
 
 import numpy as np
@@ -74,11 +73,6 @@ class OneMeshTest(InterfacesTest):
         self.assertEqual(set(map(tuple, np.sort(sides, axis=1).tolist())),
                          {(0, 1), (0, 2), (0, 4), (0, 9), (1, 2), (1, 4), (2, 4), (1, 9), (2, 9),
                           (4, 9)})
-        edges, counts = np.unique(np.sort(np.concatenate(
-            [triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]])), axis=0,
-                                  return_counts=True)
-        self.assertEqual(set(map(tuple, edges[counts > 2].tolist())),
-                         set(map(tuple, np.sort(lines).tolist())))
         legacy = read(self.path("a.vtk"), vtkPolyDataReader())
         np.testing.assert_array_equal(triangles_of(legacy), triangles)
         self.assertEqual(legacy.GetNumberOfLines(), len(lines))
@@ -111,14 +105,6 @@ class OneMeshTest(InterfacesTest):
             cells = read(self.path(name)).GetCellData()
             self.assertEqual((cells.HasArray("BoundaryLabels"), cells.HasArray("Label")),
                              (mesh, not mesh))
-
-    def test_shared_interfaces_has_no_effect(self):
-        volume, files = self.map_of(sectors()), set()
-        for number, more in enumerate(((), ("--shared-interfaces",))):
-            process = self.run_command(volume, self.path(f"{number}.vtp"), "--labels", "all", *more)
-            self.assertNotIn("warning", process.stderr)
-            files.add(self.content(f"{number}.vtp"))
-        self.assertEqual(len(files), 1)
 
     def test_box_faces(self):
         file = self.map_file("map.vti", make_image(period(), SPACING, ORIGIN, TURNED))
@@ -238,7 +224,3 @@ class MeshersTest(InterfacesTest):
                                surface.GetFieldData().GetArray("Volume").GetValue(0), 3)
         self.assertEqual(self.regions("a.smesh"), (
             [("region 1", "object"), ("facets 1", "object_to_outside")], {1}, 0, [1]))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -2,11 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tests of `volumic --list-labels`."""
 
-import unittest
-
 import numpy as np
 
-from test_labels import BLOBS, NAMES, SPACING, LabelsTest, label_image, label_voxels
+from test_labels import BLOBS, NAMES, SPACING, LabelsTest, label_voxels
 from command_test_case import make_image
 
 
@@ -56,7 +54,7 @@ class ListTest(LabelsTest):
                      "kidney")
 
     def test_floating_point_and_spacing(self):
-        volume = self.map_file("f.vti", label_image(label_voxels("f4")))
+        volume = self.map_file("f.vti", make_image(label_voxels("f4")))
         report = self.report(volume, "--list-labels", "--labels", "7", "--spacing", "1,1,3")
         row, = report["labels"]
         self.assertEqual(row["volume"], 3 * row["voxels"])
@@ -64,9 +62,5 @@ class ListTest(LabelsTest):
         half = self.map_file("h.vti", make_image(np.full((9, 9, 9), 0.5)))
         self.rejects("h.vti: .*labels must be integers", half, "--list-labels")
         many = np.arange(18 * 28 * 28).reshape(18, 28, 28).astype("i4")
-        self.rejects("more than 4096", self.map_file("many.vti", label_image(many)),
+        self.rejects("more than 4096", self.map_file("many.vti", make_image(many)),
                      "--list-labels", "--labels", "7")
-
-
-if __name__ == "__main__":
-    unittest.main()

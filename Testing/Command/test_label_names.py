@@ -8,7 +8,6 @@ import json
 import os
 import shutil
 import struct
-import unittest
 
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
@@ -289,7 +288,3 @@ class HeadersTest(NamesTest):
         self.assertEqual([(row["name"], row["layer"], row["label"]) for row in report["labels"]],
                          [("one", 0, 1), ("two", 1, 1)])
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["one.vtp", "two.vtp"])
-
-
-if __name__ == "__main__":
-    unittest.main()

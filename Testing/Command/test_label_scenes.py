@@ -156,7 +156,3 @@ class ScenesTest(LabelsTest):
         printed = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
                                  text=True, check=True).stdout
         self.assertRegex(printed, rf"Faces: +{len(self.three_mf('a.3mf')[3])}\n")
-
-
-if __name__ == "__main__":
-    unittest.main()

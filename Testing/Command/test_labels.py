@@ -12,7 +12,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
 
 from command_test_case import (
-    ISO, ORIGIN, SPACING, TURNED, CommandTestCase, make_image, medical_files)
+    ISO, ORIGIN, SPACING, CommandTestCase, make_image, medical_files)
 from volumic import options
 from volumic.errors import Failure, UsageError
 from volumic.label_map import KnownLabel, choose
@@ -35,13 +35,9 @@ def label_voxels(dtype="i2", blobs=None):
     return voxels
 
 
-def label_image(voxels=None, direction=np.eye(3)):
-    return make_image(label_voxels() if voxels is None else voxels, SPACING, ORIGIN, direction)
-
-
 class LabelsTest(CommandTestCase):
     def map_file(self, name="map.vti", image=None):
-        return self.write(vtkXMLImageDataWriter(), name, image or label_image())
+        return self.write(vtkXMLImageDataWriter(), name, image or make_image(label_voxels()))
 
     def names_file(self, name="names.json"):
         text = json.dumps({str(label): text for label, text in NAMES.items()})
@@ -176,7 +172,7 @@ class InputTest(LabelsTest):
                 ("i8", label_voxels("i8"), "^((?!warning).)*$"),
                 ("f4", label_voxels("f4"), "warning: .*integers"),
                 ("near", resampled, r"within 0.00\d+ of integers, .*; 1 NaN voxel is")):
-            process = self.run_command(self.map_file(image=label_image(voxels)), self.path(name),
+            process = self.run_command(self.map_file(image=make_image(voxels)), self.path(name),
                                        "--labels", "7")
             self.assertRegex(process.stderr.replace("\n", " "), warning)
             surfaces.add(self.content(f"{name}/label-7.vtp"))
@@ -186,7 +182,7 @@ class InputTest(LabelsTest):
         """Labels are selected, and files named, by the values in the file."""
         voxels = label_voxels("i8").astype("u4")
         voxels[voxels == 7] = 2 ** 32 - 2
-        volume = self.map_file("map.vti", label_image(voxels))
+        volume = self.map_file("map.vti", make_image(voxels))
         process = self.run_command(volume, self.path("o"), "--labels", "1,4294967294")
         self.assertEqual(sorted(os.listdir(self.path("o"))), ["4294967294.vtp", "label-1.vtp"])
         self.assertRegex(process.stderr,
@@ -209,16 +205,6 @@ class InputTest(LabelsTest):
         self.assertEqual({row["name"]: row["voxels"] for row in rows}, voxels_of)
         self.assertEqual(sorted(os.listdir(self.path("o"))),
                          ["liver.vtp", "lung_left.vtp", "part.vtp"])
-        # In one mesh a voxel belongs to the smallest mask.
-        written = self.path("w.vti")
-        process = self.run_command(self.path("organs/*.nii.gz"), self.path("a.vtp"), "--labels",
-                                   "all", "--write-volume", written)
-        self.assertRegex(process.stderr, r"warning: .*27 overlapping voxels \(liver and part 27\) ")
-        self.assertIn("empty masks: absent", process.stderr)
-        listed = self.report(written, "--list-labels")["labels"]
-        voxels_of["liver"] -= 27
-        self.assertEqual({row["name"]: row["voxels"] for row in listed if row["label"] > 0},
-                         voxels_of)
 
     def test_invalid_label_maps(self):
         voxels = label_voxels("f4")
@@ -233,15 +219,8 @@ class InputTest(LabelsTest):
                 ("map.vti: no label matches '9'", label_voxels(), "9"),
                 ("single slice", label_voxels()[8:9], "all")):
             with self.subTest(reason):
-                self.no_surfaces(reason, self.map_file(image=label_image(voxels)), "--labels",
+                self.no_surfaces(reason, self.map_file(image=make_image(voxels)), "--labels",
                                  labels)
-
-    def test_directions_and_spacing(self):
-        turned = self.map_file("turned.vti", label_image(direction=TURNED))
-        self.run_command(turned, self.path("t.vtp"), "--labels", "7", "--spacing", "1,1.5,2")
-        world = 2 * (np.argwhere(label_voxels() == 7)[:, ::-1] * SPACING) @ TURNED.T
-        expected = np.ravel(list(zip(world.min(0), world.max(0)))) + np.repeat(ORIGIN, 2)
-        np.testing.assert_allclose(read(self.path("t.vtp")).GetBounds(), expected, atol=1.5)
 
 
 class OptionsTest(LabelsTest):
@@ -293,7 +272,7 @@ class OptionsTest(LabelsTest):
     def test_small_labels(self):
         voxels = label_voxels()
         voxels[2, 2, 26] = 9
-        volume = self.map_file("dot.vti", label_image(voxels))
+        volume = self.map_file("dot.vti", make_image(voxels))
         for number, more in enumerate(((), ("--finest", "1"))):
             self.run_command(volume, self.path(f"o{number}/"), "--labels", "1,9", *more)
             self.assertEqual(sorted(os.listdir(self.path(f"o{number}"))),
@@ -330,7 +309,3 @@ class RunTest(LabelsTest):
     def test_time_limit(self):
         self.no_surfaces("time limit reached before a surface was computed", self.many_labels(4),
                          "--labels", "all", "--time-limit", "1e-9")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -8,8 +8,6 @@ import os
 import re
 import signal
 import subprocess
-import time
-import unittest
 
 import numpy as np
 from vtkmodules.vtkCommonExecutionModel import (
@@ -197,12 +195,6 @@ class RunTest(CommandTestCase):
         process = self.run_command(volume, self.path("a.vtp"), "--iso", ISO)
         self.assertRegex(process.stderr, "warning: .*of the object's boundary.* Set --finest to -1")
 
-    def test_otsu_threshold_is_printed(self):
-        process = self.run_command(self.ball_file(), self.path("a.vtp"))
-        printed = re.search(r"iso-value ([0-9.]+), estimated by Otsu", process.stderr)
-        self.assertTrue(100 < float(printed.group(1)) < 900)
-        self.assertEqual(self.run_command(self.ball_file(), self.path("a.vtp"), "-q").stderr, "")
-
     def test_seeds_and_initial_surface(self):
         centre = ORIGIN + SPACING * CENTRE
         self.write_bytes("seeds.csv", b"x,y,z\n" + ",".join(map(str, centre)).encode() + b"\n")
@@ -225,9 +217,6 @@ class RunTest(CommandTestCase):
         kept = self.report(*options, "--keep", "at-points")
         found = report["component_features"][1]
         self.assertEqual(kept["component_features"], [found])
-        dropped = self.report(*options, "--keep", "not-at-seeds", "--initialization", "icosahedron",
-                              "--seed-position", ",".join(map(str, point)))
-        self.assertEqual(dropped["component_features"], report["component_features"][:1])
         np.testing.assert_allclose(found["centroid"], point, atol=0.3)
         whole = 4 / 3 * np.pi * radius ** 3
         self.assertTrue(0.8 < found["volume"] / whole < 1.1, found)
@@ -273,17 +262,8 @@ class RunTest(CommandTestCase):
 
     def test_two_signals_at_once_are_one(self):
         """`timeout` signals the process and its group."""
-        command = [PROGRAM, self.waves_file(), self.path("a.vtp"), "--iso", "0", "--convergence",
-                   "0", "--progress"]
-        with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
-            for line in process.stderr:
-                if line.startswith("Evolving") and "teration" in line:
-                    break
-            process.send_signal(signal.SIGTERM)
-            time.sleep(0.02)
-            process.send_signal(signal.SIGTERM)
-            output = process.stderr.read()
-        self.assertEqual(process.returncode, 3, output)
+        self.interrupted("Evolving.*iteration", self.waves_file(), self.path("a.vtp"), "--iso", "0",
+                         "--convergence", "0", signals=[signal.SIGTERM] * 2)
         self.assertGreater(read(self.path("a.vtp")).GetNumberOfPolys(), 0)
 
     def test_interrupted_run_writes_surface(self):
@@ -297,7 +277,3 @@ class RunTest(CommandTestCase):
         self.assertEqual(surface.GetNumberOfPolys(), report["triangles"])
         self.assertEqual(surface.GetFieldData().GetAbstractArray("StopReason").GetValue(0),
                          "cancelled")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -3,7 +3,6 @@
 """Tests of `volumic --probe`."""
 
 import os
-import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
@@ -106,7 +105,3 @@ class ProbeTest(CommandTestCase):
         self.rejects("--probe-depth requires normals, which the mesh of several labels lacks", halves,
                      self.path("a.vtp"), "--labels", "all", "--probe", self.other(),
                      "--probe-depth", "1")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -6,9 +6,7 @@ positions, damaged files."""
 import bz2
 import gzip
 import os
-import plistlib
 import struct
-import unittest
 import zlib
 
 import numpy as np
@@ -61,29 +59,26 @@ class MetaImageTest(ReadingTestCase):
 
     def test_damage(self):
         content = META + noisy_ball().tobytes()
-        self.rejects_truncated("a.mha", content, sizes=(0.5, -10, -1))
         self.rejects("a.mha", "too long: it has 20595 bytes", content + b"123")
         packed = packed_meta(noisy_ball().tobytes())
-        self.rejects_truncated("b.mha", packed, "packed data are|truncated", sizes=(0.5, -10, -1))
-        self.rejects_bit_flips("b.mha", packed, packed.index(b"LOCAL") + 10)
-        self.rejects_with("a.mha", content, (
-            (b"NDims = 3", b"NDims = 2", "NDims is 2"), (b"SHORT", b"SHOST", "MET_SHOST"),
-            (b"MSB = False", b"MSB = Galse", "is \"galse\""), (b"26 22 18", b"26 22 0 ", "DimSize"),
-            (b"26 22 18", b"65536 65536 4294967296", "truncated|invalid"),
-            (b"0.5 0.75 1.0", b"0.5 0.75", "directions require 9 numbers"),
-            (b"0.5 0.75 1.0", b"0.5 0.75 0", "is not positive"),
-            (b"-7.0", b"nan", "the origin nan x 8 x 9.5 is not finite"),
-            (b"-7.0", b"1e20", "the origin 1e[+]20 x 8 x 9.5 is too far away"),
-            (b"LOCAL", b"", "the data file is missing")))
+        for offset in np.random.default_rng(6).integers(len(META) + 1, len(packed), 30):
+            flipped = bytearray(packed)
+            flipped[offset] ^= 16
+            self.rejects("b.mha", "damaged|truncated|exceed", flipped)
+        for old, new, reason in (
+                (b"26 22 18", b"65536 65536 4294967296", "truncated|invalid"),
+                (b"0.5 0.75 1.0", b"0.5 0.75 0", "is not positive"),
+                (b"0.5 0.75 1.0", b"0.5 0.75 600", "factor of 1000 .* set --spacing"),
+                (b"-7.0", b"nan", "the origin nan x 8 x 9.5 is not finite"),
+                (b"-7.0", b"1e20", "the origin 1e[+]20 x 8 x 9.5 is too far away")):
+            self.rejects("a.mha", reason, content.replace(old, new))
 
     def test_text(self):
         header = META.replace(b"BinaryData = True", b"BinaryData = False")
         text = " ".join(map(str, ball().ravel())).encode()
         self.check(self.read("a.mha", header + text))
-        self.rejects_truncated("a.mha", header + text, "it has [0-9]+ values, its header requires 10296",
-                               sizes=(0.5,))
-        self.rejects("a.mha", "damaged", header + b"5 " + text)
-        self.rejects("a.mha", "not a number", header + b"5x " + text[2:])
+        self.rejects("a.mha", "it has 10297 values, its header requires 10296", header + b"5 " + text)
+        self.rejects("a.mha", "damaged or invalid .*5x", header + b"5x " + text[2:])
 
 
 class NrrdTest(ReadingTestCase):
@@ -148,20 +143,12 @@ class NrrdTest(ReadingTestCase):
 
     def test_damage(self):
         data = noisy_ball().tobytes()
-        self.rejects_truncated("a.nrrd", nrrd_header() + b"\n" + data)
         self.rejects("a.nrrd", "too long", nrrd_header() + b"\n1" + data)
-        for encoding, pack, start in (("gzip", gzip.compress, 11), ("bzip2", bz2.compress, 1)):
-            header = nrrd_header(encoding)
-            content = header + b"\n" + pack(data)
-            self.rejects_truncated("b.nrrd", content)
-            self.rejects_bit_flips("b.nrrd", content, len(header) + start)
-            self.rejects("b.nrrd", "exceed the 20592 bytes", header + b"\n" + pack(data + b"more"))
-        self.rejects_with("a.nrrd", nrrd_header() + b"\n" + data, (
-            (b"endian: little", b"endian: lattle", "lattle"), (b"sizes: 26", b"sizes: 0", "sizes"),
-            (b"endian:", b"endiao:", "\"endiao\" is not a NRRD field"),
-            (b"NRRD", b"NRRT", "not a NRRD file"),
-            (b"dimension: 3", b"dimension: 4", "dimension 4"), (b"short", b"shirt", "shirt"),
-            (b"(0.5", b"(nan", "is not positive"), (b"(0.5,0", b"(0.5 0", "directions|convert")))
+        for encoding, pack in (("gzip", gzip.compress), ("bzip2", bz2.compress)):
+            self.rejects("b.nrrd", "exceed the 20592 bytes",
+                         nrrd_header(encoding) + b"\n" + pack(data + b"more"))
+        self.rejects("a.nrrd", "\"endiao\" is not a NRRD field",
+                     nrrd_header().replace(b"endian", b"endiao") + b"\n" + data)
 
 
 class NiftiTest(ReadingTestCase):
@@ -176,6 +163,12 @@ class NiftiTest(ReadingTestCase):
         scaled = (ball() * np.float32(0.5) - 100).astype("f4")
         self.check(self.read("b.nii.gz", gzip.compress(content)), scaled)
         self.check(self.read("b.nii.bz2", bz2.compress(content)), scaled)
+        content = bytearray(medical_files.nifti(ball(), SPACING, self.matrix))
+        struct.pack_into("<f", content, 256, 2)  # a quaternion of length 2
+        volume = self.check(self.read("d.nii", content), direction=TURNED)
+        self.assertRegex(volume.warnings[0], "qform is not a rotation .*; the sform is used")
+        struct.pack_into("<h", content, 254, 0)
+        self.rejects("d.nii", "damaged or invalid .w2 should be positive", content)
         flat = np.array(self.matrix)
         flat[:, 0] = flat[:, 1]
         volume = self.read("c.nii", medical_files.nifti(ball(), SPACING, flat, offset=ORIGIN))
@@ -217,19 +210,11 @@ class NiftiTest(ReadingTestCase):
 
     def test_damage(self):
         content = medical_files.nifti(noisy_ball(), SPACING)
-        self.rejects_truncated("a.nii", content)
         self.rejects("a.nii", "too long", content + b"1")
-        packed = gzip.compress(content)
-        self.rejects_truncated("a.nii.gz", packed)
-        self.rejects_bit_flips("a.nii.gz", packed, 400)
-        self.rejects_with("b.nii", content, (
-            (70, struct.pack("<h", 999), "999"), (70, struct.pack("<h", 0), "cannot be read|not supp"),
-            (40, struct.pack("<h", 9), "."), (46, struct.pack("<h", 0), "dimensions 26 x 22 x 0"),
-            (44, struct.pack("<h", -1), "."), (108, struct.pack("<f", float("nan")), "."),
-            (344, b"no", "."), (40, struct.pack("<h", 2), "too long"),
-            (108, struct.pack("<f", 1e8), "truncated"),
-            (268, struct.pack("<f", float("nan")), "origin nan x 0 x 0 is not finite"),
-            (268, struct.pack("<f", 1e20), "origin .* too far away for a spacing of 0.5")))
+        for offset, value, reason in ((46, struct.pack("<h", 0), "dimensions 26 x 22 x 0"),
+                                      (40, struct.pack("<h", 2), "too long"),
+                                      (108, struct.pack("<f", 1e8), "truncated")):
+            self.rejects("b.nii", reason, content[:offset] + value + content[offset + len(value):])
 
 
 class OtherFormatsTest(ReadingTestCase):
@@ -240,7 +225,6 @@ class OtherFormatsTest(ReadingTestCase):
         for name, packed in (("a.mgh", content), ("a.mgz", gzip.compress(content))):
             volume = self.check(self.read(name, packed), direction=TURNED)
             self.assertEqual((volume.space, volume.unit), ("RAS", "mm"))
-            self.rejects_truncated(name, packed)
         self.read("b.mgh", content + b"what FreeSurfer writes behind the voxels")
 
     def test_minc(self):
@@ -258,7 +242,6 @@ class OtherFormatsTest(ReadingTestCase):
             for name, value in (("image-min", -32768.), ("image-max", 32767.)):
                 file.createVariable(name, "d", ()).data[...] = value
         self.check(self.read("a.mnc"), ball("f4"))
-        self.rejects_truncated("a.mnc", self.content("a.mnc"), ".", sizes=(0.5, 90))
         self.rejects("b.mnc", "crashed|cannot be read", b"\x89HDF\r\n\x1a\n" + bytes(range(256)) * 9)
 
     def test_numpy(self):
@@ -269,7 +252,6 @@ class OtherFormatsTest(ReadingTestCase):
         np.savez(self.path("d.npz"), x=voxels, y=voxels + 1)
         self.rejects("d.npz", "the arrays are x, y; choose one with --array")
         self.check(self.read("d.npz", array="y"), voxels + 1, spacing=(1, 1, 1), origin=(0, 0, 0))
-        self.rejects_truncated("a.npy", self.content("a.npy"), ".")
         np.save(self.path("e.npy"), np.array([None]), allow_pickle=True)
         self.rejects("e.npy", "cannot be read")
         np.save(self.path("f.npy"), voxels[0])
@@ -289,27 +271,11 @@ class OtherFormatsTest(ReadingTestCase):
             volume = self.read("a.inv3", medical_files.inv3(voxels, SPACING, dtype=dtype))
             self.check(volume, voxels, origin=(0, 0, 0))
             self.assertEqual((volume.space, volume.unit), ("LAS", "mm"))
-        content = medical_files.inv3(noisy_ball(), SPACING)
-        self.rejects_truncated("a.inv3", content, "truncated|damaged|cannot be read")
-        self.rejects_bit_flips("a.inv3", content, 100)
         voxels = ("matrix.dat", noisy_ball().tobytes())
-
-        def plist(**changes):
-            project = {"matrix": {"dtype": "int16", "shape": list(noisy_ball().shape)},
-                       "spacing": SPACING.tolist(), **changes}
-            return "main.plist", plistlib.dumps(project)
-
-        shape = list(noisy_ball().shape)
-        for files, reason in (
-                ([voxels], "main.plist is missing"), ([plist()], "matrix.dat is missing"),
-                ([voxels, ("main.plist", b"<plist><dict>")], "damaged"),
-                ([voxels, ("main.plist", bytes(2 << 20))], "too large"),
-                ([voxels, plist(spacing=[1.0, 1.0])], "not those of a volume"),
-                ([voxels, plist(matrix={"dtype": "object", "shape": shape})], "\"object\""),
-                ([voxels, plist(matrix={"dtype": "int16", "shape": [1 << 30] * 3})], "truncated"),
-                ([voxels, plist(matrix={"dtype": "uint8", "shape": shape})], "too long")):
-            with self.subTest(reason):
-                self.rejects("b.inv3", reason, medical_files.archive_of(files))
+        for files, reason in (([voxels], "main.plist is missing"),
+                              ([voxels, ("main.plist", b"<plist><dict>")], "damaged"),
+                              ([voxels, ("main.plist", bytes(2 << 20))], "too large")):
+            self.rejects("b.inv3", reason, medical_files.archive_of(files))
 
     def test_unknown_suffixes(self):
         self.check(self.read("a.1", META + ball().tobytes()))
@@ -317,8 +283,6 @@ class OtherFormatsTest(ReadingTestCase):
             ball(), SPACING)))
         self.rejects("a.xyz", "unknown format", b"?")
         self.rejects("missing.vti", "no such file or folder")
-        os.mkfifo(self.path("a.nii"))
-        self.rejects("a.nii", "a pipe or a device")
 
 
 class HeadersTest(ReadingTestCase):
@@ -345,7 +309,3 @@ class HeadersTest(ReadingTestCase):
             self.assertRegex(" ".join(volume.warnings), warning)
             np.testing.assert_array_equal(volume.array, ball())
             np.testing.assert_allclose(volume.spacing, SPACING)
-
-
-if __name__ == "__main__":
-    unittest.main()

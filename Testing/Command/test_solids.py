@@ -15,7 +15,6 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
 from test_interfaces import ORIGIN, SPACING, InterfacesTest, period, sections_of
-from command_test_case import ISO
 from solid_files import (
     faces_between, inp_mesh, keywords_of, least_angles, msh, tetrahedra_of, volumes)
 from vtk_files import points_of, read, triangles_of
@@ -85,16 +84,6 @@ class MesherTest(SolidsTest):
             names = grid.GetFieldData().GetArray("LabelName")
             self.assertEqual([names.GetComponentName(i) for i in range(3)],
                              ["liver", "left kidney", "a 'b'"])
-
-    def test_a_surface_of_a_scan(self):
-        for mesher in MESHERS:
-            self.run_command(self.ball_file(), self.path("ball.vtu"), self.path("ball.vtp"),
-                             "--iso", ISO, "--mesher", mesher)
-            grid = read(self.path("ball.vtu"), vtkXMLUnstructuredGridReader())
-            volume = read(self.path("ball.vtp")).GetFieldData().GetArray("Volume").GetValue(0)
-            corners, labels = tetrahedra_of(grid)
-            self.assertAlmostEqual(volumes(points_of(grid), corners).sum() / volume, 1, 5)
-            self.assertEqual(set(labels.tolist()), {1})
 
     def outlets(self):
         """Write two vessels that leave the volume at z-max, with values that increase with z."""
@@ -205,12 +194,6 @@ class MesherTest(SolidsTest):
                 self.assertLess(np.median(sizes), 2 * limit)
                 counts.append(len(sizes))
             self.assertGreater(counts[1], 1.3 * counts[0])
-
-    def test_a_file_for_each_label(self):
-        self.run_command(self.map_of(voxels()), self.path("all/"), "--labels", "all", "--format",
-                         "vtu")
-        self.assertEqual(sorted(os.listdir(self.path("all"))),
-                         ["label-1.vtu", "label-2.vtu", "label-4.vtu"])
 
     def test_box_faces(self):
         """Two labels fill the box; one has the name of a box face."""
@@ -359,7 +342,3 @@ class SolverTest(SolidsTest):
         names = Counter(re.search("NSET=(.*)", head).group(1).lower() for head in heads
                         if head.startswith("*NSET"))
         self.assertEqual(max(names.values()), 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -5,7 +5,6 @@ outputs."""
 
 import json
 import os
-import unittest
 
 import numpy as np
 
@@ -135,7 +134,3 @@ class SpaceTest(CommandTestCase):
         length = int.from_bytes(content[12:16], "little")
         extras = json.loads(content[20:20 + length])["nodes"][1]["extras"]
         self.assertEqual((extras["SPACE"], extras["LengthUnit"]), ("RAS", "mm"))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -7,7 +7,6 @@ import os
 import statistics
 import subprocess
 import time
-import unittest
 
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
@@ -54,7 +53,3 @@ class ThreadsTest(CommandTestCase):
             at_work = self.threads_at_work(labels, self.path(f"labels{asked}"), "--labels", "all",
                                            "--threads", asked)
             self.assertIn(at_work, (expected, expected + 1))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -4,7 +4,6 @@
 
 import os
 import re
-import unittest
 
 import numpy as np
 from vtkmodules.vtkIOXML import vtkXMLImageDataWriter
@@ -55,7 +54,3 @@ class TrianglesTest(CommandTestCase):
                                    "--triangles", 20, status=1)
         self.assertRegex(process.stderr, "no tolerance or edge length yields this number; the nearest")
         self.assertFalse(os.path.exists(self.path("a.vtp")))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,9 +1,8 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tests of `volumic --write-volume`, of cropping and resampling, and of `--list-files`."""
+"""Tests of `volumic --write-volume`, of cropping and of resampling."""
 
 import os
-import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
@@ -71,13 +70,6 @@ class WrittenVolumeTest(WritingTestCase):
                      "--write-volume", self.path("old.vti"), preexec_fn=largest_file(1000))
         self.assertEqual((self.content("ball.vti"), self.content("old.vti")), (before, b"older"))
 
-    def test_files(self):
-        self.write_bytes("a.nhdr", nrrd_header() + b"data file: a.raw\n")
-        for name, files in (("a.nhdr", {"a.nhdr", "a.raw"}), ("ball.vti", {"ball.vti"})):
-            self.ball_file()
-            lines = self.run_command(self.path(name), "--list-files").stdout.splitlines()
-            self.assertEqual({os.path.basename(line) for line in lines}, files)
-
 
 class ResampledVolumeTest(WritingTestCase):
     def test_values_are_linear_between_voxels(self):
@@ -125,16 +117,6 @@ class RegionTest(WritingTestCase):
         image = self.written(self.nrrd(), "--region", "-5,8,0,10000,3,5")
         self.assertEqual(image.GetDimensions(), (9, SIZE[1], 3))
 
-    def test_surface_closes_at_the_border(self):
-        whole = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5")
-        half = self.report(self.ball_file(), self.path("a.vtp"), "--iso", "500.5", "--region",
-                           "0,100,0,100,0,8")
-        self.assertEqual((half["genus"], half["components"]), (0, 1))
-        # The ball's centre is at slice 7.8; the surface ends beyond the last slice.
-        bounds = read(self.path("a.vtp")).GetBounds()
-        self.assertTrue(8 + ORIGIN[2] < bounds[5] <= 9 + ORIGIN[2])
-        self.assertTrue(0.5 < half["volume"] / whole["volume"] < 0.75)
-
     def test_invalid_regions(self):
         for reason, *options in (
                 ("the region is outside the volume, whose index k ranges from 0 to 17", "--region",
@@ -142,7 +124,3 @@ class RegionTest(WritingTestCase):
                 ("resampling yields .* voxels", "--resample", "1e-6,1e-6,1e-6")):
             with self.subTest(reason):
                 self.rejects(reason, self.ball_file(), self.path("a.vtp"), *options)
-
-
-if __name__ == "__main__":
-    unittest.main()

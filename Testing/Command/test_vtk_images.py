@@ -4,7 +4,6 @@
 
 import itertools
 import os
-import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
@@ -20,7 +19,7 @@ from volumic import reading
 
 class VtkTest(ReadingTestCase):
     def test_encodings(self):
-        """Complete, truncated, and with missing or extra data."""
+        """Complete, and with missing or extra data."""
         image = make_image(noisy_ball(), direction=TURNED)
         for mode, compressor, encodes in itertools.product((0, 1, 2), range(4), (0, 1)):
             writer = vtkXMLImageDataWriter()
@@ -31,7 +30,6 @@ class VtkTest(ReadingTestCase):
             with self.subTest(mode, compressor=compressor, encodes=encodes):
                 volume = self.check(self.read("a.vti"), noisy_ball(), TURNED)
                 self.assertEqual(volume.name, "density")
-                self.rejects_truncated("a.vti", content, sizes=(0.2, 0.7, 0.9, -60, -12))
                 at = len(content) * 2 // 3
                 piece = 200 if mode == 0 else 12  # truncated text may end within a number
                 for rest in (at + piece, at - piece):
@@ -107,9 +105,8 @@ class VtkTest(ReadingTestCase):
         for binary in (True, False):
             writer = vtkStructuredPointsWriter()
             writer.SetFileType(2 if binary else 1)
-            content = self.bytes_of(writer, "a.vtk", make_image(noisy_ball()))
+            self.write(writer, "a.vtk", make_image(noisy_ball()))
             self.check(self.read("a.vtk"), noisy_ball())
-            self.rejects_truncated("a.vtk", content, "VTK cannot read the file", sizes=(0.5, -10))
         self.rejects("b.vtk", "has PolyData, not an image", b"# vtk DataFile Version 3.0\na\nASCII\n"
                      b"DATASET POLYDATA\nPOINTS 1 float\n0 0 0\n")
 
@@ -126,7 +123,3 @@ class VtkTest(ReadingTestCase):
             if step == 1:
                 self.check(self.read("a.vtr"))
         self.rejects("a.vtr", "of variable spacing, not an image; convert it")
-
-
-if __name__ == "__main__":
-    unittest.main()

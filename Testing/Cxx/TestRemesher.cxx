@@ -35,16 +35,22 @@ int SetIntoAFace(SurfaceState& s, int u)
 TEST(Remesher, SplitAvoidsNeedles)
 {
   // A tetrahedron with one edge that is too long and a vertex near the midpoint of that edge.
-  for (const double height : { 0.01, 0.05 })
+  for (const auto& [height, isGraded, splits] : std::vector<std::tuple<double, bool, int>>{
+         { 0.01, false, 0 }, { 0.04, false, 1 }, { 0.04, true, 0 }, { 0.06, true, 1 } })
   {
     IndexedSurface cap;
     cap.Points = { { -1.3, 0, 0 }, { 1.3, 0, 0 }, { 0, 0, height }, { 0, -1, -1 } };
     cap.Triangles = { { 0, 1, 2 }, { 1, 0, 3 }, { 0, 2, 3 }, { 2, 1, 3 } };
     LiveSurface bench(cap);
     std::vector<int> all = bench.All();
+    const LargeVector<float> sizes(8, 1.f);
+    if (isGraded)
+    {
+      bench.Sizing = bench.Sizing.Graded(sizes, 1, 0.2f);
+    }
     Remesher(bench, nullptr, true).Split(all);
-    EXPECT_EQ(bench.Counts.Splits, height > 0.02 ? 1 : 0);
-    EXPECT_EQ((bench.RemeshFlags[0] & HasLongEdge) != 0, height < 0.02)
+    EXPECT_EQ(bench.Counts.Splits, splits);
+    EXPECT_EQ((bench.RemeshFlags[0] & HasLongEdge) != 0, splits == 0)
       << "the edge is tested again";
   }
 }

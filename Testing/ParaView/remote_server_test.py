@@ -107,6 +107,6 @@ class RemoteServerTest(unittest.TestCase):
         surfaces = simple.LabelstoSurfaces(reader, FinestLevel=1)
         self.assertEqual(testing.names(testing.fetch(surfaces)), ["liver", "left kidney", "spleen"])
         path = testing.output_path("remote.glb")
-        servermanager.writers.ExportSurfaces(Input=surfaces, FileName=path).UpdatePipeline()
+        simple.SaveData(path, surfaces)  # as File > Save Data
         with open(path, "rb") as file:
             self.assertIn(b"left kidney", file.read())

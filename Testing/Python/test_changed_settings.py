@@ -6,8 +6,10 @@ import unittest
 
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImageData
+from vtkmodules.vtkCommonDataModel import vtkDataObject
 from volumic import vtkDeformableSurface, vtkVolumeToSurface
+
+from sample_volumes import make_image
 
 SIZE = 28
 # Properties that reuse or resume the last run.
@@ -24,10 +26,7 @@ def image_of_a_ball():
     z, y, x = np.indices((SIZE,) * 3)
     inside = 9.5 - np.sqrt((x - 13.)**2 + (y - 13.)**2 + (1.3 * (z - 13.5))**2)
     values = np.stack((np.clip(100 * (inside + 0.5), 0, 100), np.clip(80 * inside, 0, 100)), -1)
-    image = vtkImageData()
-    image.SetDimensions(SIZE, SIZE, SIZE)
-    image.SetSpacing(1., 1., 1.3)
-    image.GetPointData().SetScalars(numpy_to_vtk(values.reshape(-1, 2).astype("f4"), deep=True))
+    image = make_image(values.astype("f4"), (1, 1, 1.3))
     slope = numpy_to_vtk(np.exp(-inside.ravel()**2).astype("f4"), deep=True)
     slope.SetName("slope")
     image.GetPointData().AddArray(slope)
@@ -88,7 +87,3 @@ class ChangedSettingsTest(unittest.TestCase):
         filter_ = filter_that_has_run(image_of_a_ball())
         filter_.AddAttractingPosition(13., 13., 17.)
         self.check_reruns(filter_)
-
-
-if __name__ == "__main__":
-    unittest.main()

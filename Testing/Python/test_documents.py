@@ -167,7 +167,3 @@ class CodeTest(FolderTestCase):
         documented = re.findall(r"^\| `([A-Z_]+)` \|", read("Documentation/install.md"),
                                 flags=re.MULTILINE)
         self.assertEqual(sorted(documented), sorted(known))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -84,7 +84,3 @@ class PackageTest(unittest.TestCase):
             update()
             self.assertIsInstance(pyramid.GetOutput(), vtkMultiBlockDataSet)
             self.assertIsInstance(pyramid.GetOutputDataObject(0), vtkMultiBlockDataSet)
-
-
-if __name__ == "__main__":
-    unittest.main()

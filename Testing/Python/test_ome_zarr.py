@@ -187,7 +187,3 @@ class WithoutZarrTest(unittest.TestCase):
         with unittest.mock.patch.dict(sys.modules, zarr=None):
             with self.assertRaisesRegex(ImportError, "Debian: python3-zarr"):
                 ome_zarr.open(os.sep)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -13,6 +13,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+from sample_volumes import RING_ISO, ring_voxels, write_volume
+
 SKIPPED = 77  # exit code
 SOURCE = Path(os.environ["VOLUMIC_SOURCE"])
 VTK_PACKAGES = os.environ["VOLUMIC_VTK_PACKAGES"]  # the folder of vtkmodules
@@ -23,10 +25,7 @@ ENVIRONMENT = {name: value for name, value in os.environ.items()
 ENVIRONMENT.update(CXX=os.environ["VOLUMIC_COMPILER"], PIP_NO_INDEX="1",
                    PIP_DISABLE_PIP_VERSION_CHECK="1")
 
-BALL = """<VTKFile type="ImageData" version="1.0"><ImageData WholeExtent="0 29 0 29 0 29"
-Origin="0 0 0" Spacing="1 1 1"><Piece Extent="0 29 0 29 0 29"><PointData Scalars="v">
-<DataArray type="Float32" Name="v" format="ascii">{}</DataArray></PointData></Piece></ImageData>
-</VTKFile>"""
+
 def run(*command, check=True, **options):
     """Return the output of a command. Raise AssertionError with the output if it fails (with
     check)."""
@@ -51,6 +50,12 @@ def skip_reason():
     return None
 
 
+def setUpModule():
+    if reason := skip_reason():
+        print(f"Skipped: {reason}")
+        sys.exit(SKIPPED)
+
+
 class PipInstallTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -62,10 +67,7 @@ class PipInstallTest(unittest.TestCase):
         cls.addClassCleanup(cls.uninstall)
         # The build folder is reused by later runs.
         print(cls.install(os.environ["VOLUMIC_PIP_BUILD"]))
-        values = (9 - sum((n - 14.5) ** 2 for n in (x, y, z)) ** 0.5
-                  for z in range(30) for y in range(30) for x in range(30))
-        ball = " ".join(f"{value:.4f}" for value in values)
-        (cls.folder / "ball.vti").write_text(BALL.format(ball), encoding="utf-8")
+        write_volume(str(cls.folder / "ring.mha"), ring_voxels())
 
     @classmethod
     def install(cls, build, *arguments, check=True):
@@ -123,14 +125,6 @@ class PipInstallTest(unittest.TestCase):
                       run(self.bin / "volumic", "--version"))
         surfaces = []
         for program in (self.bin / "volumic", INSTALLED / "bin" / "volumic"):
-            run(program, "ball.vti", "ball.stl", "--iso", "0", cwd=self.folder)
-            surfaces.append((self.folder / "ball.stl").read_bytes())
+            run(program, "ring.mha", "ring.stl", "--iso", str(RING_ISO), cwd=self.folder)
+            surfaces.append((self.folder / "ring.stl").read_bytes())
         self.assertEqual(surfaces[0], surfaces[1])
-
-
-if __name__ == "__main__":
-    reason = skip_reason()
-    if reason:
-        print(f"Skipped: {reason}")
-        sys.exit(SKIPPED)
-    unittest.main()

@@ -211,7 +211,3 @@ class LabelsTest(ReferenceTest):
         table.SetInputData(self.labels)
         table.Update()
         self.compare("Columns of the label table", arrays_of(table.GetOutput().GetRowData()))
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -340,7 +340,3 @@ class JobTest(FolderTestCase):
         found = arrays.quality(Triangle)
         self.assertAlmostEqual(found["SmallestAngle"], 60)
         self.assertAlmostEqual(found["MeanQuality"], 1)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -14,8 +14,8 @@ namespace
 {
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Least distance, in delta, from the midpoint of a split edge to an opposite vertex. */
-constexpr float LeastHeight = 0.02f;
+/** Least distance, in delta, from the midpoint of a split edge to an opposite vertex; if graded. */
+constexpr float LeastHeight[] = { 0.02f, 0.05f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
@@ -34,10 +34,10 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
 {
   // If the longest edge of a triangle cannot be split, the two others would be split in turn. Each
   // midpoint would be a quarter as far from the last one, until all are collinear. Intersection
-  // tests fail for such needles, whereas a temporarily long edge does no harm.
+  // tests fail for such needles, whereas a long edge does no harm. A local division splits often.
   const SurfaceState& s = this->State;
   const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
-  const float least = LeastHeight * s.Sizing.ShortestEdge(u, v);
+  const float least = LeastHeight[s.Sizing.IsGraded() ? 1 : 0] * s.Sizing.ShortestEdge(u, v);
   return SquaredDistance(middle, s.Mesh.Position[across.A]) < least * least ||
     SquaredDistance(middle, s.Mesh.Position[across.B]) < least * least;
 }

@@ -117,7 +117,7 @@ def _reader_of(path, choice):
         return _reader_of_file(path)
     if not os.path.isdir(path):
         if not re.search(r"[*%]", os.path.basename(path)):
-            raise VolumeError("no such file or folder")
+            raise VolumeError("no such file or folder; check its name")
     elif {".zattrs", ".zgroup", ".zarray", "zarr.json"} & set(os.listdir(path)):
         return "microscopy:read_ome_zarr"
     from . import masks

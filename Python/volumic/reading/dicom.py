@@ -15,7 +15,7 @@ from ..errors import VolumeError
 from .dicom_pixels import COPY_OR_MOVE, pixels_of, read_file, values_of
 from .grid import on_regular_grid, one_of_times
 from .microscopy import natural
-from .volume import Label, Volume, plain_name, text_of
+from .volume import Label, Volume, plain_name, prefix_errors, text_of
 
 
 def is_dicom(file):
@@ -130,12 +130,9 @@ def _all_series(files):
     for file in [file for file in files if os.path.basename(file).lower() != "dicomdir"]:
         name = os.path.relpath(file, root)
         data = read_file(file, name, True)
-        try:
+        with prefix_errors(name):
             slices = {each.copy: each for each in _slices(data, file, name)}
             uid = str(data.get("SeriesInstanceUID") or "")
-        except Exception as error:  # pylint: disable=broad-except
-            text = "" if isinstance(error, VolumeError) else "invalid header: "
-            raise VolumeError("%s: %s%.300s" % (name, text, error)) from None
         if slices:
             series = found.setdefault(uid, _Series(len(found) + 1, uid, data))
             series.copies += any(key in series.slices for key in slices)

@@ -13,6 +13,7 @@ import numpy as np
 
 from ..errors import VolumeError
 from .grid import check_size
+from .volume import prefix_errors
 from .worker import in_worker, set_current_item, captured_output
 
 COPY_OR_MOVE = "; copy it again, or move it to another folder"
@@ -22,7 +23,7 @@ def read_file(file, name, is_header=False):
     """Return the data set of a file, or, if `is_header`, its elements before the pixels."""
     import pydicom
     warnings.filterwarnings("ignore", module="pydicom")
-    try:
+    with prefix_errors(name):
         with open(file, "rb") as stream:
             data = pydicom.dcmread(stream, force=True, stop_before_pixels=is_header)
             data.syntax = (data.file_meta.get("TransferSyntaxUID")
@@ -30,9 +31,6 @@ def read_file(file, name, is_header=False):
             data.has_pixels = data.syntax.is_deflated or stream.read(4) in (
                 b"\xe0\x7f\x10\0", b"\x7f\xe0\0\x10")  # pydicom stops there
             return data
-    except Exception as error:  # pylint: disable=broad-except
-        raise VolumeError("%s: truncated file or invalid header (%.100s); copy the file again"
-                          % (name, error)) from None
 
 
 def values_of(slices):
@@ -108,10 +106,8 @@ def _uncompressed(file, name, area):
                           "one of 1, 8, 16 or 32 bits" % (name, samples, bits))
     required = (int(data.get("NumberOfFrames") or 1) * area * bits + 7) // 8
     available = len(data.PixelData)
-    try:
+    with prefix_errors(name):
         check_size(available, required + required % 2 * (available > required), exact=True)
-    except VolumeError as error:
-        raise VolumeError("%s: %s" % (name, error)) from None
     kind = "%s%s%d" % ("<" if data.syntax.is_little_endian else ">", "i" if bits > 1 and data.get(
         "PixelRepresentation") == 1 else "u", max(1, bits // 8))
     return np.frombuffer(data.PixelData, kind, required * 8 // max(8, bits)), bits

@@ -3,7 +3,9 @@
 """MRC by mrcfile, TIFF by tifffile, pictures by Pillow, OME-Zarr by zarr."""
 from __future__ import annotations
 
+import bz2
 import collections
+import gzip
 import logging
 import os
 import re
@@ -14,8 +16,8 @@ import warnings
 import numpy as np
 
 from ..errors import VolumeError
-from .grid import one_of_times, make_volume, voxels
-from .volume import METERS, Choice, failure_of, unit_of
+from .grid import from_stream, make_volume, one_of_times, voxels
+from .volume import METERS, Choice, prefix_errors, unit_of
 
 _PICTURE_SUFFIXES = (".png", ".tif", ".tiff", ".bmp", ".jpg", ".jpeg", ".pgm", ".ppm", ".pnm")
 _COLORS = {1: "", 2: "gray and alpha", 3: "color", 4: "color and alpha"}  # by components
@@ -23,41 +25,44 @@ _MODES = {0: "i1", 1: "i2", 2: "f4", 3: "(2,)i2", 4: "c8", 6: "u2", 12: "f2", 16
 
 
 def read_mrc(path, choice):
-    """Read MRC2014, also compressed. mrcfile ignores the axis order and the cell angles."""
-    import mrcfile
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        with mrcfile.open(path, permissive=True, header_only=True) as file:
-            header = file.header
+    """Read MRC2014, also compressed. mrcfile ignores the axis order and the cell angles, and its
+    readers allocate the extended header, of a size up to 2 GiB in a damaged file."""
+    from mrcfile.dtypes import HEADER_DTYPE
+    with open(path, "rb") as stream:
+        compression = {b"\x1f\x8b": "gzip", b"BZ": "bz2"}.get(stream.read(2))
+    with {"gzip": gzip.open, "bz2": bz2.open}.get(compression, open)(path, "rb") as stream:
+        stored = from_stream(stream, HEADER_DTYPE, 1)
+    headers = [stored.view(HEADER_DTYPE.newbyteorder(order))[0]
+               for order in ("><" if stored["machst"][0, 0] == 17 else "<>")]  # machine stamp
+    header = next((each for each in headers if int(each["mode"]) in _MODES), headers[0])
     numbers = lambda *names: np.array([int(header[name]) for name in names])
-    mode, sizes = int(header.mode), numbers("nz", "ny", "nx")
+    mode, sizes, extended = int(header["mode"]), numbers("nz", "ny", "nx"), int(header["nsymbt"])
     if mode not in _MODES:
         raise VolumeError("mode %d is not supported; convert it to mode 2 (IMOD: newstack -mode "
                           "2)" % mode)
     order, cells = numbers("mapc", "mapr", "maps") - 1, numbers("mx", "my", "mz")
     order = order if order.max() >= 0 else np.arange(3)
-    angles = [float(angle) or 90. for angle in header.cellb.tolist()]
+    angles = [float(angle) or 90. for angle in header["cellb"].tolist()]
     ca, cb, cg = [0. if abs(angle - 90) < .01 else np.cos(np.radians(angle)) for angle in angles]
     sine = np.sqrt(1 - cg * cg)
     y = (ca - cb * cg) / sine if sine > 0 else 1.
-    if sorted(order) != [0, 1, 2] or sizes.min() < 1 or cells.min() < 1 or not cb * cb + y * y < 1:
-        raise VolumeError("invalid header: %d x %d x %d voxels along the axes %s, %d x %d x "
-                          "%d cells with the angles %g, %g, %g"
-                          % (*sizes[::-1], order + 1, *cells, *angles))
+    if (sorted(order) != [0, 1, 2] or min(*sizes, *cells, extended + 1) < 1
+            or not cb * cb + y * y < 1):
+        raise VolumeError("invalid header: %d x %d x %d voxels along the axes %s, %d x %d x %d "
+                          "cells with the angles %g, %g, %g, %d bytes of extended header"
+                          % (*sizes[::-1], order + 1, *cells, *angles, extended))
     kind, extra = _MODES[mode], header["extra2"].tobytes()[40:48]  # bytes 152 to 159
     if mode == 0 and extra[:4] in (b"IMOD", b"DOMI") and not extra[4 if extra[0] == 73 else 7] & 1:
         kind = "u1"  # IMOD has a flag for signed bytes
     dtype = np.dtype(kind).newbyteorder(header.dtype["nx"].byteorder)
-    with open(path, "rb") as stream:
-        compression = {b"\x1f\x8b": "gzip", b"BZ": "bz2"}.get(stream.read(2))
     array = voxels(path, 0, dtype, np.prod(sizes, dtype=object), compression,
-                   1024 + int(header.nsymbt), exact=True).reshape(*sizes, *dtype.shape)
+                   1024 + extended, exact=True).reshape(*sizes, *dtype.shape)
     array = np.moveaxis(array, -1, 0) if dtype.shape else array
-    if header.ispg >= 401 and sizes[0] > cells[2] and sizes[0] % cells[2] == 0:  # several volumes
+    if header["ispg"] >= 401 and sizes[0] > cells[2] and sizes[0] % cells[2] == 0:  # several volumes
         array = array.reshape(-1, cells[2], *sizes[1:])[one_of_times(sizes[0] // cells[2], choice)]
     axes = np.array([[1, cg, cb], [0, sine, y], [0, 0, np.sqrt(1 - cb * cb - y * y)]])
-    steps = axes * (np.array(header.cella.tolist()) / cells)  # columns: along x, y and z
-    origin = header.origin.tolist() + steps[:, order] @ numbers("nxstart", "nystart", "nzstart")
+    steps = axes * (np.array(header["cella"].tolist()) / cells)  # columns: along x, y and z
+    origin = header["origin"].tolist() + steps[:, order] @ numbers("nxstart", "nystart", "nzstart")
     return make_volume(array, steps[:, order], origin, "", "A", choice,
                        components={3: "complex", 16: "color"}.get(mode, ""))
 
@@ -83,8 +88,6 @@ def read_tiff(path, choice):
                 raise IndexError((damage or ["pages differ in size or pixel type"])[0])
             _check_pages(file, series, is_plain)
             return _tiff_volume(path, file, series, choice)
-    except (IndexError, TypeError, KeyError, struct.error, tifffile.TiffFileError) as error:
-        raise VolumeError("the file is truncated or damaged: %s" % error) from None
     finally:
         logging.getLogger("tifffile").removeHandler(handler)
 
@@ -239,10 +242,8 @@ def read_pictures(path, choice):
                                        forms[-1][0].replace("#", "*")))
     notes, slices = [], []
     for name in kept:
-        try:
+        with prefix_errors(name):
             slices.append(_picture(os.path.join(folder, name), choice.labels, notes))
-        except Exception as error:  # pylint: disable=broad-except
-            raise VolumeError("%s: %s" % (name, failure_of(error))) from None
     kinds = [(pixels.shape, pixels.dtype) for pixels in slices]
     most = collections.Counter(kinds).most_common(1)[0][0]
     slices = {name: pixels for name, pixels, kind in zip(kept, slices, kinds) if kind == most}

@@ -70,8 +70,9 @@ def _world_of(image):
     try:
         qform, code = header.get_qform(coded=True)
         qform = qform if code else None
-    except Exception:  # pylint: disable=broad-except
-        qform = None  # invalid quaternion
+    except ValueError as error:  # invalid quaternion; without sform, nibabel rejects the file
+        qform = None
+        warnings.append("the qform is not a rotation (%s); the sform is used" % error)
     if sform is not None and qform is not None and not _is_invertible(sform):
         warnings.append("the sform has axes that are parallel or zero (%s); the qform is used"
                         % _matrix_text(sform))

@@ -80,10 +80,7 @@ def _from_text(file, offset, dtype, count):
     with open(file, "rb") as stream:
         stream.seek(offset)
         words = stream.read(min(os.path.getsize(file), 40 * count + 1000)).split()
-    try:
-        values = np.array(words).astype(dtype)
-    except ValueError as error:
-        raise VolumeError("the file is damaged: not a number (%s)" % error) from None
+    values = np.array(words).astype(dtype)
     if len(values) != count:
         raise VolumeError("the file is %s: it has %d values, its header requires %d; copy it again"
                           % ("truncated" if len(values) < count else "damaged", len(values), count))
@@ -367,15 +364,13 @@ def read_inv3(path, choice):
 
 def _inv3_header(data):
     """Return shape, type, steps, data file and space in main.plist."""
-    try:
+    with prefix_errors("main.plist"):
         if data.count(b"<") > 100000:
             raise ValueError("too many elements")
         project = plistlib.loads(data, fmt=plistlib.FMT_XML)
         matrix, spacing = project["matrix"], [float(s) for s in project["spacing"]]
         shape, dtype = [int(n) for n in matrix["shape"]], str(matrix["dtype"])
         name = os.path.basename(str(matrix.get("filename", "matrix.dat")))
-    except Exception as error:  # pylint: disable=broad-except
-        raise VolumeError("main.plist is damaged or incomplete: %s" % error) from None
     if len(shape) != 3 or len(spacing) != 3 or min(shape) < 1 or min(spacing) <= 0:
         raise VolumeError("main.plist: dimensions %s and spacing %s are not those of a volume"
                           % (text_of(shape), text_of(spacing)))

@@ -95,7 +95,7 @@ def _mesh(path):
     from vtkmodules.vtkParallelCore import vtkCommunicator
     require_file(path)
     if not os.path.exists(path):
-        raise VolumeError("no such file")
+        raise VolumeError("no such file; check its name")
     content, mesh = in_worker("volumic.reading.points:load", path), vtkPolyData()
     vtkCommunicator.UnMarshalDataObject(numpy_to_vtk(content, array_type=2), mesh)  # 2: char
     return mesh

@@ -40,7 +40,7 @@ def read_label_names(file: str) -> list[Label]:
                              "or 0 to 255")
     except (OSError, ValueError, RecursionError, csv.Error) as error:
         raise Failure(f"{file}: label names cannot be read: "
-                      f"{getattr(error, 'strerror', None) or error}") from None
+                      f"{getattr(error, 'strerror', None) or error}; correct the file") from None
     scale = 255 if max(colors, default=0) > 1 else 1
     first = {label.value: label for label in reversed(labels)}
     return [Label(value, plain_name(label.name), label.color and tuple(

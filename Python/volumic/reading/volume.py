@@ -8,11 +8,13 @@ import dataclasses
 import errno
 import gzip
 import os
+import re
 import zlib
 
 import numpy as np
 
 from ..errors import Failure, VolumeError
+from ..messages import one_line
 
 METERS = {"m": 1., "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "nm": 1e-9, "A": 1e-10}
 
@@ -138,6 +140,9 @@ def check_positions(volume):
     if not np.isfinite(volume.origin).all():
         raise VolumeError("the origin %s is not finite; correct the header"
                           % text_of(volume.origin))
+    if max(volume.spacing) > 1000 * min(volume.spacing):
+        raise VolumeError("the spacing %s differs by more than a factor of 1000 between the axes; "
+                          "correct the header or set --spacing X,Y,Z" % text_of(volume.spacing))
     sizes = np.array(volume.array.shape[:-4:-1]) + np.abs(volume.start)
     far = np.abs(volume.origin) + np.abs(volume.direction) @ (np.array(volume.spacing) * sizes)
     if not np.isfinite(far).all() or np.spacing(far.max()) > 1e-3 * min(volume.spacing):
@@ -148,11 +153,12 @@ def check_positions(volume):
 
 @contextlib.contextmanager
 def prefix_errors(path):
-    """Convert all errors to a VolumeError that begins with the file name."""
+    """Convert all errors to a VolumeError that begins with the file name and ends with advice."""
     try:
         yield
     except Exception as error:  # pylint: disable=broad-except
-        text = str(failure_of(error))
+        text = one_line(str(failure_of(error)))
+        text += "" if re.search(r"; [a-z]|\binstall ", text) else "; copy the file again, correct it or convert it"
         raise VolumeError(text if text.startswith((path + ":", path + os.sep)) else
                           "%s: %s" % (path, text)) from None
 
@@ -179,10 +185,11 @@ def failure_of(error):
         module = error.name.split(".")[0]
         package = "python3-" + {"PIL": "pil", "vtkmodules": "vtk9"}.get(module, module)
         text = "install the Python package %s to read this format (Debian: %s)" % (module, package)
-    elif isinstance(error, OSError) and error.strerror:
+    elif isinstance(error, OSError) and error.strerror and error.errno != errno.EINVAL:
         text = error.strerror + (": " + str(error.filename)[:200] if error.filename else "")
+        text += "; check the files and their permissions"
     elif not isinstance(error, Failure):
-        text = "cannot be read: " + text
+        text = "cannot be read: the file is truncated, damaged or invalid (%s)" % text
     return VolumeError(text)
 
 

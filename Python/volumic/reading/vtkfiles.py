@@ -64,10 +64,9 @@ def choose_array(names, active, requested):
         if found and not requested:
             break
     listed = ", ".join(names["PointData"])
-    raise VolumeError("%s; %s" % (
-        "no point array " + requested if requested else "the volume has no active scalars",
-        "choose one of the point arrays with --array: %s" % listed if listed else
-        "there are no point arrays"))
+    text = "no point array " + requested if requested else "the volume has no active scalars"
+    raise VolumeError("%s; choose one of the point arrays with --array: %s" % (text, listed)
+                      if listed else "the volume has no point arrays")
 
 
 def _shape(sizes, parent):
@@ -210,5 +209,7 @@ def updated(reader, path):
               re.split("(?m)^(?=ERROR|Warning|Generic)", window.GetOutput())
               if text[:7] in ("ERROR: ", "Generic") and "InformationKey" not in text]  # NaN ranges
     if errors or output is None or not output.GetNumberOfPoints():
-        raise VolumeError("VTK cannot read the file: " + (errors or ["no data"])[0][-200:])
+        reason = next((text for text in errors if not re.search(
+            "returned failure for request|did not create output", text)), "no data")
+        raise VolumeError("VTK cannot read the file: " + reason[-200:])
     return output

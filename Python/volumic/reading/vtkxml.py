@@ -13,6 +13,7 @@ from xml.parsers import expat
 import numpy as np
 
 from ..errors import VolumeError
+from .volume import prefix_errors
 
 _TYPES = {"String": "i1", **{kind + str(8 * size): kind[0].lower() + str(size)
                              for kind in ("Int", "UInt", "Float") for size in (1, 2, 4, 8)}}
@@ -30,11 +31,7 @@ class XmlFile:
         parser.StartElementHandler, parser.CharacterDataHandler = self._start, self._text
         parser.EndElementHandler = lambda _: self._open.pop()
         head = self.data.find(b"<AppendedData")
-        try:
-            parser.Parse(self.data if head < 0 else self.data[:head], head < 0)
-        except expat.ExpatError as error:
-            raise VolumeError("the file is truncated or damaged: invalid XML (%s)"
-                              % error) from None
+        parser.Parse(self.data if head < 0 else self.data[:head], head < 0)
         self.kind = self.root.get("type", "")
         self.order = ">" if self.root.get("byte_order") == "BigEndian" else "<"
         self.header = self.order + ("u8" if self.root.get("header_type") == "UInt64" else "u4")
@@ -70,7 +67,7 @@ class XmlFile:
 
     def read(self, array, count=None):
         """Return the values of an array. Raise VolumeError unless there are `count`."""
-        try:
+        with prefix_errors("array " + array["name"]):
             dtype = np.dtype(self.order + _TYPES[array["type"]])
             need = None if count is None else count * dtype.itemsize
             if array["format"] == "ascii":
@@ -89,10 +86,6 @@ class XmlFile:
             if len(data) - used > 4096 or bytes(data[used:]).strip():
                 raise ValueError("%d extra bytes follow" % (len(data) - used))
             return np.frombuffer(raw, dtype)
-        except Exception as error:  # pylint: disable=broad-except
-            raise VolumeError("the file is truncated or damaged: array %s cannot be read: %s; "
-                              "copy the file again" % (array["name"], error or "truncated")
-                              ) from None
 
     def _decompressed(self, data, is_base64, need):
         """Return the bytes of an array, and how many bytes of the data encode it."""
