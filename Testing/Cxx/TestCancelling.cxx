@@ -77,15 +77,6 @@ StopReason RunIn(const LevelPair& scene, TestEvolution& evolution, bool isGivenA
   }
   return evolution.Run();
 }
-
-/** @param hasRow whether the last row describes the surface */
-void ExpectValid(const TestEvolution& evolution, bool hasRow)
-{
-  const SurfaceResult surface = evolution.Result();
-  ExpectValidMesh(surface);
-  EXPECT_TRUE(!hasRow ||
-    evolution.History().back().EulerCharacteristic == MeshOf(surface).CountEulerCharacteristic());
-}
 }
 
 class Cancelling : public ::testing::TestWithParam<bool>
@@ -129,7 +120,10 @@ TEST_P(Cancelling, WorksInAllPhasesOfLevel)
       EXPECT_EQ(reason, isBetween ? StopReason::Converged : StopReason::Cancelled);
       EXPECT_EQ(monitor.QueriesAfterCancel, 0);
       EXPECT_TRUE(where.second == Activity::Starting || !stopped.Result().Points.empty());
-      ExpectValid(stopped, isIterating);
+      const SurfaceResult surface = stopped.Result();
+      ExpectValidMesh(surface);
+      EXPECT_TRUE(!isIterating ||
+        stopped.History().back().EulerCharacteristic == MeshOf(surface).CountEulerCharacteristic());
     }
   }
 }

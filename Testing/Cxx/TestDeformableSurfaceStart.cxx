@@ -17,15 +17,6 @@ TEST(DeformableSurfaceStart, StartsFromAnInputSurface)
 
 namespace
 {
-/** A rod three voxels wide, and four times as bright in the middle. */
-vtkSmartPointer<vtkImageData> RodWithBrightMiddle()
-{
-  const auto image = ImageOf({ 64, 64, 64 }, [](int, int, int) { return 0.0; });
-  FillBox(image, { 8, 30, 30 }, { 56, 33, 33 });
-  FillBox(image, { 30, 30, 30 }, { 33, 33, 33 }, 400.0);
-  return image;
-}
-
 /** The coarsest level that has a surface. */
 unsigned int FirstLevelOf(vtkDeformableSurface* filter)
 {
@@ -108,10 +99,12 @@ TEST(DeformableSurfaceStart, StartsAroundTheFirstResolvedParts)
 
 TEST(DeformableSurfaceStart, SkipsLevelsWithSmallPartsOnly)
 {
-  // The first level that resolves the rod has only its bright middle, with fewer voxels than
-  // MinimumPartSize.
-  const auto filter =
-    SurfaceOf(RodWithBrightMiddle(), [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
+  // A rod with a bright middle. The first level that resolves it has only its middle, with fewer
+  // voxels than MinimumPartSize.
+  const auto image = ImageOf({ 64, 64, 64 }, [](int, int, int) { return 0.0; });
+  FillBox(image, { 8, 30, 30 }, { 56, 33, 33 });
+  FillBox(image, { 30, 30, 30 }, { 33, 33, 33 }, 400.0);
+  const auto filter = SurfaceOf(image, [](vtkDeformableSurface* f) { f->SetIsoValue(50.5); });
   const unsigned int first = FirstLevelOf(filter);
   EXPECT_GE(FieldOf(SurfaceAt(filter, first), "RecoveredParts"), 1);
   EXPECT_EQ(FieldOf(filter->GetOutput(), "NumberOfComponents"), 1);

@@ -7,12 +7,6 @@ using namespace volumic;
 
 namespace
 {
-/** Object for x < 10. */
-TestVolume Half()
-{
-  return MakeVolume(20, [](double x, double, double) { return 10 - x; });
-}
-
 LevelImage ImageOf(const std::array<int, 3>& size, const Point& step)
 {
   LevelImage image;
@@ -46,7 +40,7 @@ TEST(InitialSurface, EnclosingSurfaceHasValidEdgesForAnyBox)
   }
 }
 
-TEST(InitialSurface, RejectsExtremeSpacing)
+TEST(InitialSurface, RejectsExtremeSpacingAndTooManyVertices)
 {
   EXPECT_NO_THROW(EnclosingSurface(ImageOf({ 20, 20, 20 }, { 1, 1, 1000 }), 1.));
   for (const double step : { 1e6, 1e20, 1e300 })
@@ -55,10 +49,6 @@ TEST(InitialSurface, RejectsExtremeSpacing)
     EXPECT_TRUE(Has(ErrorMessageOf([&] { EnclosingSurface(image, 1.); }),
       "times as long as wide. Check the Spacing"));
   }
-}
-
-TEST(InitialSurface, RejectsTooManyVertices)
-{
   const LevelImage image = ImageOf({ 20, 20, 20 }, { 1, 1, 1e6 });
   EXPECT_NO_THROW(CheckNumberOfVertices(1e7, image, 1.));
   EXPECT_THROW(CheckNumberOfVertices(1e8, image, 1.), std::invalid_argument);
@@ -66,7 +56,7 @@ TEST(InitialSurface, RejectsTooManyVertices)
 
 TEST(InitialSurface, SeedsAreInObjectAndApart)
 {
-  const TestVolume volume = Half();
+  const TestVolume volume = MakeVolume(20, [](double x, double, double) { return 10 - x; });
   const Field field(volume.Image, SurfaceOptions(), Threads);
   const std::vector<Point> chosen = ChooseSeeds(
     field, { { 5, 5, 5 }, { 5, 5, 7.9 }, { 5, 5, 8.1 }, { 15, 5, 5 }, { 9, 12, 5 } }, 3);
@@ -75,15 +65,10 @@ TEST(InitialSurface, SeedsAreInObjectAndApart)
   EXPECT_THROW(ChooseSeeds(field, { { 5, 5, 25 } }, 3), std::invalid_argument);
   EXPECT_THROW(ChooseSeeds(field, { { -1, 5, 5 } }, 3), std::invalid_argument);
   EXPECT_THROW(ChooseSeeds(field, { { 15, 5, 5 } }, 3), std::invalid_argument);
-}
-
-TEST(InitialSurface, DefaultSeedsFormGridInObject)
-{
-  const TestVolume volume = Half();
-  const Field field(volume.Image, SurfaceOptions(), Threads);
-  const std::vector<Point> chosen = ChooseSeeds(field, {}, 4);
-  EXPECT_EQ(chosen.size(), 3u * 5 * 5) << "at x = 1.5, 5.5 and 9.5";
-  for (const Point& p : chosen)
+  // Default seeds form a grid in the object.
+  const std::vector<Point> grid = ChooseSeeds(field, {}, 4);
+  EXPECT_EQ(grid.size(), 3u * 5 * 5) << "at x = 1.5, 5.5 and 9.5";
+  for (const Point& p : grid)
   {
     EXPECT_LT(p[0], 10);
   }

@@ -81,28 +81,20 @@ TEST(InitialSurfaceCheck, PreservesValidMesh)
   EXPECT_NEAR(ComputeFeatures(again).Volume, ComputeFeatures(converged).Volume, 1e-6);
 }
 
-TEST(InputSurfaceInvalid, RejectsWrongUnits)
+TEST(InputSurfaceInvalid, RejectsWrongUnitsAndTooSmallSurfaces)
 {
-  const std::string text = ErrorMessageOf(Cylinder(13000, 25500, 12));
-  EXPECT_TRUE(Has(text, "too large for the image"));
-  EXPECT_TRUE(Has(text, "26000"));
-  EXPECT_TRUE(Has(text, "the image 40"));
-  EXPECT_TRUE(Has(text, "unit"));
+  const std::string large = ErrorMessageOf(Cylinder(13000, 25500, 12));
+  EXPECT_TRUE(Has(large, "too large for the image"));
+  EXPECT_TRUE(Has(large, "26000"));
+  EXPECT_TRUE(Has(large, "the image 40"));
+  EXPECT_TRUE(Has(large, "unit"));
   EXPECT_EQ(ErrorMessageOf(Cylinder(35, 70, 12)), "") << "larger than the image";
-}
-
-TEST(InputSurfaceInvalid, RejectsSurfaceThinnerThanEdges)
-{
+  const std::string thin = ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
+  EXPECT_TRUE(Has(thin, "too thin for this level"));
+  EXPECT_TRUE(Has(thin, "finer level"));
   EXPECT_EQ(ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 20.9 })), "");
-  const std::string text = ErrorMessageOf(Cuboid({ 10, 10, 19.5 }, { 30, 30, 19.7 }));
-  EXPECT_TRUE(Has(text, "too thin for this level"));
-  EXPECT_TRUE(Has(text, "finer level"));
-}
-
-TEST(InputSurfaceInvalid, RejectsSurfaceSmallerThanEdges)
-{
-  const std::string text = ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
-  EXPECT_TRUE(Has(text, "too small for this level"));
+  const std::string small = ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 1.0, 0.2));
+  EXPECT_TRUE(Has(small, "too small for this level"));
   EXPECT_EQ(ErrorMessageOf(DividedIcosahedron({ 19.5, 19.5, 19.5 }, 3., 0.2)), "");
 }
 

@@ -16,7 +16,7 @@ using namespace volumic;
 
 namespace
 {
-/** What a filter says is wrong with an input; it says it once. */
+/** Update a filter with an input, and return its only error. */
 std::string ErrorOf(vtkAlgorithm* filter, vtkDataObject* input)
 {
   filter->SetInputDataObject(input);
@@ -63,7 +63,7 @@ std::vector<vtkSmartPointer<vtkDataObject>> HoldersOf(vtkImageData* image)
 }
 }
 
-TEST(InputImage, GridsOfOtherTypesAreRefusedOnceWithTheWayOut)
+TEST(InputImage, ReportsGridsOfOtherTypesOnce)
 {
   for (const auto& filter : AllFilters())
   {

@@ -3,21 +3,14 @@
 
 // Initial surfaces of VTK's sources and decimated scans. Invalid ones must be rejected.
 #include "EvolutionTestTools.h"
-#include "SurfaceJudge.h"
+#include "SupportVtkConversions.h"
 
 #include <vtkCleanPolyData.h>
 #include <vtkConeSource.h>
 #include <vtkCylinderSource.h>
 #include <vtkFlyingEdges3D.h>
-#include <vtkIdList.h>
-#include <vtkImageData.h>
-#include <vtkNew.h>
-#include <vtkPointData.h>
-#include <vtkPoints.h>
-#include <vtkPolyData.h>
 #include <vtkPolyDataConnectivityFilter.h>
 #include <vtkQuadricDecimation.h>
-#include <vtkSmartPointer.h>
 #include <vtkSphereSource.h>
 #include <vtkTriangleFilter.h>
 
@@ -74,6 +67,7 @@ vtkSmartPointer<vtkPolyData> Decimated(Dice& dice)
   const double height = dice.Between(0.5, 3.0);
   vtkNew<vtkImageData> image;
   image->SetDimensions(Size, Size, Size);
+  image->SetOrigin(-Middle, -Middle, -Middle);
   image->AllocateScalars(VTK_FLOAT, 1);
   auto* value = static_cast<float*>(image->GetScalarPointer());
   ForVoxels({ Size, Size, Size },
@@ -99,14 +93,7 @@ vtkSmartPointer<vtkPolyData> Decimated(Dice& dice)
   vtkNew<vtkQuadricDecimation> decimate;
   decimate->SetInputConnection(clean->GetOutputPort());
   decimate->SetTargetReduction(dice.Between(0.2, 0.97));
-  auto result = Cleaned(decimate->GetOutputPort());
-  for (vtkIdType i = 0; i < result->GetNumberOfPoints(); ++i)
-  {
-    double p[3];
-    result->GetPoint(i, p);
-    result->GetPoints()->SetPoint(i, p[0] - Middle, p[1] - Middle, p[2] - Middle);
-  }
-  return result;
+  return Cleaned(decimate->GetOutputPort());
 }
 
 vtkSmartPointer<vtkPolyData> MakeShape(const std::string& kind, Dice& dice)
@@ -114,21 +101,20 @@ vtkSmartPointer<vtkPolyData> MakeShape(const std::string& kind, Dice& dice)
   const double radius = dice.Between(3.0, 16.0);
   const double height = dice.Between(3.0, 32.0);
   const int sides = dice.Count(3, 300);
+  const auto shapeOf = [&](auto source, double more)
+  {
+    source->SetRadius(radius + more);
+    source->SetHeight(height + 2.0 * more);
+    source->SetResolution(sides);
+    return Cleaned(source->GetOutputPort());
+  };
   if (kind == "Cylinders")
   {
-    vtkNew<vtkCylinderSource> cylinder;
-    cylinder->SetRadius(radius);
-    cylinder->SetHeight(height);
-    cylinder->SetResolution(sides);
-    return Cleaned(cylinder->GetOutputPort());
+    return shapeOf(vtkSmartPointer<vtkCylinderSource>::New(), 0.0);
   }
   if (kind == "Cones")
   {
-    vtkNew<vtkConeSource> cone;
-    cone->SetRadius(radius + 2.0);
-    cone->SetHeight(height + 4.0);
-    cone->SetResolution(sides);
-    return Cleaned(cone->GetOutputPort());
+    return shapeOf(vtkSmartPointer<vtkConeSource>::New(), 2.0);
   }
   if (kind == "Spheres")
   {
@@ -147,21 +133,14 @@ IndexedSurface Placed(vtkPolyData* shape, Dice& dice)
   const double angle = dice.Between(0.0, 1.0) < 0.3 ? 0.0 : dice.Between(0.0, 6.28);
   const double c = std::cos(angle);
   const double s = std::sin(angle);
+  const TriangleSurface given = ToTriangleSurface(shape);
   IndexedSurface surface;
-  for (vtkIdType i = 0; i < shape->GetNumberOfPoints(); ++i)
+  surface.Triangles.assign(given.Triangles.begin(), given.Triangles.end());
+  for (const auto& p : given.Points)
   {
-    double p[3];
-    shape->GetPoint(i, p);
     const double x = c * p[0] - s * p[1];
     const double y = s * p[0] + c * p[1];
     surface.Points.push_back({ x + Middle, c * y - s * p[2] + Middle, s * y + c * p[2] + Middle });
-  }
-  for (vtkIdType cell = 0; cell < shape->GetNumberOfCells(); ++cell)
-  {
-    vtkNew<vtkIdList> corners;
-    shape->GetCellPoints(cell, corners);
-    surface.Triangles.push_back({ static_cast<int>(corners->GetId(0)),
-      static_cast<int>(corners->GetId(1)), static_cast<int>(corners->GetId(2)) });
   }
   return surface;
 }
