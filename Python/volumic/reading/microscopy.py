@@ -236,7 +236,7 @@ def read_pictures(path, choice):
     forms = collections.Counter(form.values()).most_common() or [("", 0)]
     kept = [name for name in form if form[name] == forms[0][0] or forms[0][1] == 1]
     if 4 * len(kept) < 3 * len(form) or not form:
-        raise VolumeError("no pictures and no DICOM slices found" if not form else
+        raise VolumeError("no pictures or DICOM slices found; give their folder" if not form else
                           "pictures with several name patterns: %s; choose one with a pattern such "
                           "as '%s'" % (", ".join("%s (%d)" % each for each in forms[:3]),
                                        forms[-1][0].replace("#", "*")))
