@@ -173,6 +173,7 @@ class DamageTest(CommandTestCase):
         self.write_bytes("ball.mha", META + ball().tobytes())
         self.assertEqual(forked(lambda: collect(self.folder), self.path("log"))[:2], (0, ""))
         samples = json.loads(self.content("list"))
+        self.assertGreater(len(samples), 100)
         others = [self.content(path) for _, path, _ in samples if os.path.isfile(path)]
         for seed in range(int(os.environ.get("VOLUMIC_DAMAGES", "1")) * len(samples)):
             function, good, choice = samples[seed % len(samples)]
