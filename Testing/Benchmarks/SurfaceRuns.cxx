@@ -16,8 +16,6 @@
 #include "SupportVtkConversions.h"
 
 #include <vtkDeformableSurface.h>
-#include <vtkImageCast.h>
-#include <vtkImageConstantPad.h>
 #include <vtkImagePyramid.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkPolyDataConnectivityFilter.h>
@@ -66,18 +64,6 @@ TriangleSurface Stretched(TriangleSurface surface, const Steps& factors, bool is
     }
   }
   return surface;
-}
-
-vtkSmartPointer<vtkImageData> Padded(vtkImageData* image)
-{
-  const int* extent = image->GetExtent();
-  vtkNew<vtkImageConstantPad> pad;
-  pad->SetInputData(image);
-  pad->SetConstant(image->GetScalarRange()[0]);
-  pad->SetOutputWholeExtent(
-    extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
-  pad->Update();
-  return pad->GetOutput();
 }
 
 /** Return the voxels with extent and origin 0 and these distances. */
@@ -135,15 +121,8 @@ void SetVerdict(
 void SetFit(const TriangleSurface& surface, vtkImageData* padded, double isoValue,
   const std::string& prefix, Figures& figures)
 {
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputData(padded);
-  cast->SetOutputScalarTypeToFloat();
-  cast->Update();
-  support::JudgedVolume volume;
-  volume.Values = static_cast<const float*>(cast->GetOutput()->GetScalarPointer());
-  padded->GetDimensions(volume.Size.data());
-  volume.IsoValue = isoValue;
-  figures.Set(prefix + "Reach", support::JudgeReach(surface, volume).Share);
+  support::JudgedVolume volume = support::ToJudgedVolume(padded, isoValue);
+  figures.Set(prefix + "Reach", support::ReachedShare(surface, volume));
   for (const bool isWorld : { false, true })
   {
     const std::string metric = prefix + (isWorld ? "World" : "Voxels");
@@ -199,7 +178,7 @@ void MeasurePeer(const Volume& volume, const Options& options, Figures& figures)
 {
   vtkSMPTools::Initialize(1);
   const Steps steps = StepsOf(volume.Image, volume.IsWorld);
-  const vtkSmartPointer<vtkImageData> padded = Padded(volume.Image);
+  const vtkSmartPointer<vtkImageData> padded = support::Padded(volume.Image);
   const vtkSmartPointer<vtkImageData> image = InSteps(padded, steps);
   const Job job = PeerJob(options, image, volume.IsoValue);
   Measure(job.Work, options.Integer("repetitions", 1), figures);
@@ -260,7 +239,7 @@ void JudgeLevel(vtkPolyData* surface, vtkImageData* level, const Volume& volume,
   SetVerdict(Stretched(support::ToTriangleSurface(surface, volume.Image),
                StepsOf(volume.Image, volume.IsWorld)),
     Field(surface, "Delta") / unit, prefix, figures);
-  const vtkSmartPointer<vtkImageData> padded = Padded(level);
+  const vtkSmartPointer<vtkImageData> padded = support::Padded(level);
   SetFit(support::ToTriangleSurface(surface, padded), padded, volume.IsoValue, prefix, figures);
 }
 

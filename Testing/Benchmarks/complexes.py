@@ -179,23 +179,6 @@ def label_figures(shape, voxels, large):
             "VolumeLargest": max(errors, default=np.nan)}
 
 
-def dihedral_angles(shape):
-    """Return the angles at edges between two triangles of the same labels, degrees."""
-    corners = shape.points[shape.triangles]
-    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True) + 1e-300
-    edges = np.sort(np.stack([shape.triangles, np.roll(shape.triangles, -1, axis=1)], 2), axis=2)
-    number = edges.reshape(-1, 2) @ [len(shape.points), 1]
-    order = np.argsort(number, kind="stable")
-    same = number[order][:-1] == number[order][1:]
-    alone = same & ~np.append(same[1:], False) & ~np.insert(same[:-1], 0, False)
-    first, second = order[:-1][alone] // 3, order[1:][alone] // 3
-    one_pair = (np.sort(shape.sides[first], axis=1) == np.sort(shape.sides[second], axis=1)).all(axis=1)
-    turned = np.where((shape.sides[first] == shape.sides[second]).all(axis=1), 1, -1)
-    cosines = turned * (normals[first] * normals[second]).sum(axis=1)
-    return np.degrees(np.arccos(np.clip(cosines[one_pair], -1, 1)))
-
-
 def figures_of(shape, voxels, judge, large=1000):
     """Return {name: number}. JudgeFiles finds intersecting pairs and triangles without area with CGAL's
     exact predicates."""
@@ -210,6 +193,5 @@ def figures_of(shape, voxels, judge, large=1000):
         "Vertices": len(np.unique(shape.triangles)), "Triangles": len(shape.triangles),
         "Intersections": verdict["intersections"], "Flat": verdict["flat"],
         "RatioMean": verdict["ratio"], "AngleLeast": least_angles(shape).min(),
-        "Dihedral": np.quantile(dihedral_angles(shape), .95),
         "Roughness": np.quantile(angles, .95) if len(angles) else np.nan,
         **label_figures(shape, voxels, large)}

@@ -10,7 +10,6 @@ crossing  pairs of triangles that intersect outside their common corners and edg
 open      edges where the boundary of a label is not closed, oriented and manifold
 vol %     largest volume error of a label of more than 1000 voxels
 q, angle  mean radius ratio; least angle of a triangle, degrees
-dihedral  angle between the normals of neighbouring triangles of the same labels, 95 % quantile
 distance  mean distance of triangles to the true planes between grains, voxels
 rough     angle between consecutive segments of a junction line, 95 % quantile"""
 
@@ -37,14 +36,14 @@ COLUMNS = {
     "Seconds": "s", "Time": "time", "Vertices": "vertices", "PerSecond": "triangles / s",
     "Intersections": "crossing", "WrongEdges": "open",
     "LostLabels": "no surface", "VolumeLargest": "vol %", "RatioMean": "q", "AngleLeast": "angle",
-    "Dihedral": "dihedral", "Truth": "distance", "Roughness": "rough"}
+    "Truth": "distance", "Roughness": "rough"}
 TEMPLATES = "/usr/share/mricron/templates"
 
 
 def add_options(parser):
     parser.add_argument("--judge", default="JudgeFiles", help="path of the program JudgeFiles")
     parser.add_argument("--maps", default="polycrystal,tooth,slices,aal,JHU", metavar="LIST",
-                        help="polycrystal, tooth, slices, aal, JHU (Debian's mricron-data), small")
+                        help="polycrystal, tooth, slices, aal, JHU (Debian's mricron-data)")
     parser.add_argument("--runs", default=",".join(runs_here()), metavar="LIST", help="(%(default)s)")
     parser.add_argument("--threads", type=int, default=1, help="of us; from 2 on `s` is elapsed time")
     parser.add_argument("--repetitions", type=int, default=1)
@@ -121,8 +120,7 @@ def named_maps():
         "tooth": lambda: tooth(128),
         "slices": lambda: tooth(128, 2),
         "aal": lambda: template("aal"),
-        "JHU": lambda: template("JHU-WhiteMatter-labels-1mm"),
-        "small": lambda: polycrystal(32, 6)}
+        "JHU": lambda: template("JHU-WhiteMatter-labels-1mm")}
 
 
 # ---- Runs ----------------------------------------------------------------------------------------

@@ -12,8 +12,8 @@
  * "nan". Ratios are radius ratios.
  *
  * With a map, the files are surfaces of its labels, named by the field data `Label`. They are also
- * judged together and against the voxels: `on` counts voxels whose centres are on the surface and
- * may be on either side. The indices of the misclassified voxels, x fastest, end the line.
+ * judged together and against the voxels: `wrong` counts misclassified voxels, `on` those whose
+ * centres are on the surface and may be on either side.
  */
 
 #include "MisclassifiedVoxels.h"
@@ -54,7 +54,7 @@ struct NamedSurface : TriangleSurface
   std::vector<double> Deltas; ///< of the points; empty if the file has none
   std::size_t Crossing = 0;   ///< intersections of all surfaces together
   std::size_t CentresOn = 0;  ///< voxels with centres on the surface
-  std::vector<std::size_t> MisclassifiedVoxels;
+  std::size_t MisclassifiedVoxels = 0;
 };
 
 NamedSurface ReadSurface(const std::string& file)
@@ -139,10 +139,7 @@ void FindMisclassifiedVoxels(NamedSurface& surface, vtkImageData* map)
   for (std::size_t v = 0; v < enclosed.size(); ++v)
   {
     const double label = map->GetPointData()->GetScalars()->GetTuple1(static_cast<vtkIdType>(v));
-    if (surface.Labels.count(label) != static_cast<std::size_t>(enclosed[v]))
-    {
-      surface.MisclassifiedVoxels.push_back(v);
-    }
+    surface.MisclassifiedVoxels += (surface.Labels.count(label) != 0) != (enclosed[v] != 0);
   }
 }
 
@@ -195,7 +192,7 @@ void Judge(const NamedSurface& surface)
   const TopologyVerdict topology = JudgeTopology(surface);
   const IntersectionVerdict intersections = JudgeIntersections(surface);
   const auto cavities = std::count_if(topology.Components.begin(), topology.Components.end(),
-    [](const ComponentVerdict& component) { return component.Volume < 0.; });
+    [](double volume) { return volume < 0.; });
   std::cout << surface.Points.size() << ' ' << surface.Triangles.size() << ' ' << topology.Closed
             << ' ' << topology.Manifold << ' ' << topology.Oriented << ' ' << topology.Outward
             << ' ' << intersections.Pairs << ' ' << intersections.FlatTriangles << ' '
@@ -215,12 +212,7 @@ void Judge(const NamedSurface& surface)
   const ShapeVerdict shapes = JudgeShapes(surface);
   std::cout << ' ' << shapes.Mean << ' ' << shapes.Quantile01 << ' ' << shapes.Least << ' '
             << cavities << ' ' << surface.Crossing << ' ' << surface.CentresOn << ' '
-            << surface.MisclassifiedVoxels.size();
-  for (const std::size_t voxel : surface.MisclassifiedVoxels)
-  {
-    std::cout << ' ' << voxel;
-  }
-  std::cout << std::endl;
+            << surface.MisclassifiedVoxels << std::endl;
 }
 }
 

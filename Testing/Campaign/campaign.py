@@ -4,7 +4,7 @@
 """Run the command on random volumes and judge every surface that it writes. See campaign.sh.
 
     campaign.py --program volumic --judge JudgeFiles --folder DIR --seeds N [--first SEED]
-                [--labels [--voxels N]] [--minutes N]
+                [--labels]
 
 Prints a line for each seed with an exception or more than 20 s of processor time, then a summary.
 Exit code: 0 if there are no exceptions.
@@ -22,15 +22,11 @@ import shutil
 import subprocess
 import sys
 import threading
-import time
 
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
-from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter
-from vtkmodules.vtkIOXML import vtkXMLImageDataReader, vtkXMLPolyDataReader
+from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 from random_settings import RandomRun
-from voxel_topology import whole_parts
 
 SLOW_SECONDS, MOST_SECONDS = 20, 150  # of processor time
 MOST_EDGES_OUTSIDE = 1e-4  # fraction of all edges
@@ -48,10 +44,8 @@ class Outcome:
         self.messages = ""  # the standard error
         self.surfaces = self.triangles = 0
         self.exceptions = []
-        self.warned = []  # label maps: problems covered by a warning
-        self.wrong = {}  # label maps: indices of misclassified voxels
-        # Labels of 8 or more voxels and parts: (voxels, volume error, misclassified, text); percent.
-        self.labels, self.parts = [], []
+        self.found = set()  # label maps: labels with a surface
+        self.labels = []  # of 8 or more voxels: (voxels, volume error, misclassified, text); percent
 
     def refusal(self):
         """Return the error message without numbers."""
@@ -139,8 +133,7 @@ def judge(program, names, files, outcome):
     topology = (outcome.run.topology() if outcome.run.is_of_labels and
                 "--keep" not in outcome.run.arguments and outcome.status == 0 else {})
     for path, line in zip(files, judged.stdout.splitlines()):
-        words = line.split()
-        verdict = dict(zip(names, map(float, words)))
+        verdict = dict(zip(names, map(float, line.split())))
         fields = field_data(os.path.join(outcome.run.folder, path))
         outcome.surfaces += 1
         outcome.triangles += int(verdict["triangles"])
@@ -151,64 +144,21 @@ def judge(program, names, files, outcome):
         run = outcome.run
         found = [*faults(verdict, fields), *faults_of_edges(verdict, fields, run.arguments)]
         if outcome.run.is_of_labels:
-            found += [*faults_of_label(verdict, fields, outcome, path),
+            found += [*faults_of_label(verdict, fields, outcome),
                       *faults_of_topology(verdict, topology.get(fields["Label"]))]
-            for label in fields["Labels"]:
-                outcome.wrong[label] = np.array(words[len(names):], int)
+            outcome.found.update(fields["Labels"])
         outcome.exceptions += [f"{path} ({fields.get('StopReason', 'snapshot')}): {fault}"
                                for fault in found]
     if outcome.run.is_of_labels and verdict["crossing"]:
         outcome.exceptions.append(f"{verdict['crossing']:g} intersections of all surfaces together")
 
 
-def volumes_of_parts(outcome, path, labels):
-    """Return [(voxels, volume in voxels)] of the parts of a label.
-
-    A component of the surface belongs to the part to which most of its points are nearest.
-    """
-    reader, connected = vtkXMLPolyDataReader(), vtkPolyDataConnectivityFilter()
-    reader.SetFileName(os.path.join(outcome.run.folder, path))
-    connected.SetInputConnection(reader.GetOutputPort())
-    connected.SetExtractionModeToAllRegions()
-    connected.ColorRegionsOn()
-    connected.Update()
-    surface = connected.GetOutput()
-    images = vtkXMLImageDataReader()
-    images.SetFileName(os.path.join(outcome.run.folder, "volume.vti"))
-    images.Update()
-    to_index = images.GetOutput().GetPhysicalToIndexMatrix()
-    matrix = np.array([[to_index.GetElement(r, c) for c in range(4)] for r in range(3)])
-    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float) @ matrix[:, :3].T
-    points += matrix[:, 3]
-    corners = vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3)
-    region = vtk_to_numpy(surface.GetPointData().GetArray("RegionId"))
-    a, b, c = (points[corners[:, n]] for n in range(3))
-    sixfold = np.einsum("ij,ij->i", np.cross(a, b), c) * np.sign(np.linalg.det(matrix[:, :3]))
-    volume = np.bincount(region[corners[:, 0]], sixfold / 6)
-    where = np.isin(outcome.run.labels, labels)
-    part = whole_parts(np.where(where, 1, 0))
-    voxels = np.argwhere(where)[:, ::-1]
-    part_of_voxel = np.unique(part[where], return_inverse=True)[1]
-    total = np.zeros(part_of_voxel.max() + 1)
-    scale = outcome.run.spacing / outcome.run.spacing.min()
-    for n, one in enumerate(volume):
-        some = points[region == n][:50] * scale
-        nearest = (((some[:, None] - voxels * scale) ** 2).sum(-1)).argmin(1)
-        total[np.bincount(part_of_voxel[nearest]).argmax()] += one
-    return list(zip(np.bincount(part_of_voxel), total))
-
-
-def faults_of_label(verdict, fields, outcome, path):
+def faults_of_label(verdict, fields, outcome):
     run, label, voxels = outcome.run, fields["Label"], fields["LabelVoxels"]
     if run.is_default and voxels >= 8:
         outcome.labels.append((voxels, 100 * (fields["Volume"] / voxels / run.spacing.prod() - 1),
                                100 * verdict["wrong"] / voxels,
                                f"seed {outcome.seed} ({run.kind}), {label}: {voxels} voxels"))
-    if run.is_default:
-        outcome.parts += [
-            (size, 100 * (volume / size - 1), 0,
-             f"seed {outcome.seed} ({run.kind}), {label}: a part of {size} voxels")
-            for size, volume in volumes_of_parts(outcome, path, fields["Labels"])]
     if abs(verdict["wrong"] - fields["WrongVoxels"]) > verdict["on"]:
         yield f"WrongVoxels {fields['WrongVoxels']}, judged as {verdict['wrong']:g}"
 
@@ -219,23 +169,6 @@ def faults_of_topology(verdict, expected):
     if expected and found != expected:
         yield ("Euler characteristic, components, cavities: "
                f"{found[0]:g} {found[1]:g} {found[2]:g}, expected {expected}")
-
-
-def check_labels(outcome):
-    """Report labels without a surface and parts with no voxel inside."""
-    labels = outcome.run.labels.ravel()
-    part = whole_parts(outcome.run.labels, 1).ravel()
-    sizes = np.bincount(part)
-    for label in (set(labels) - {0}).intersection(outcome.run.selected or labels):
-        if label not in outcome.wrong:
-            outcome.exceptions.append(f"label {label} has no surface")
-            continue
-        own = np.flatnonzero(labels == label)
-        missed = np.setdiff1d(part[own], part[np.setdiff1d(own, outcome.wrong[label])])
-        largest, voxels = sizes[missed].max(initial=0), sizes[part[own]].max()
-        if outcome.run.is_default and (largest == voxels > 1 or largest >= 8):
-            outcome.warned.append(f"all {largest} voxels of a part of label {label} are "
-                                  f"misclassified; its largest part has {voxels}")
 
 
 def check_status(outcome, folder):
@@ -258,12 +191,10 @@ def check_status(outcome, folder):
 
 
 def try_seed(seed, arguments, names):
-    if time.time() > arguments.end:
-        return None
     folder = os.path.join(arguments.folder, str(seed))
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
-    run = RandomRun(seed, folder, arguments.labels, arguments.voxels)
+    run = RandomRun(seed, folder, arguments.labels)
     outcome = Outcome(seed, run)
     with open(os.path.join(folder, "command"), "w", encoding="utf-8") as file:
         file.write(shlex.join([arguments.program, *run.arguments]) + "\n")
@@ -272,7 +203,9 @@ def try_seed(seed, arguments, names):
     files = sorted(glob.glob("**/*.vtp", root_dir=folder, recursive=True))
     judge(arguments.judge, names, [f for f in files if f != "given.vtp"], outcome)
     if run.is_of_labels and (outcome.status == 0 or "all labels are empty" in outcome.messages):
-        check_labels(outcome)
+        labels = set(run.labels.flat) - {0}
+        outcome.exceptions += [f"label {label} has no surface" for label in
+                               labels.intersection(run.selected or labels) - outcome.found]
     if not outcome.exceptions and outcome.seconds <= SLOW_SECONDS and not arguments.keep:
         shutil.rmtree(folder)
     return outcome
@@ -295,16 +228,11 @@ def print_summary(outcomes):
     refusals = collections.Counter(o.refusal() for o in outcomes if o.status == 1)
     for message, times in refusals.most_common():
         print(f"    {times} x {message}")
-    for outcome in outcomes:
-        if outcome.warned:
-            print(f"    seed {outcome.seed}, {outcome.run.kind}: {'; '.join(outcome.warned)}")
-    for low, high in ((60, 1e9), (8, 59), (1, 7)):
-        for kind in ("labels", "parts"):
-            some = [one for o in outcomes for one in getattr(o, kind) if low <= one[0] <= high]
-            which = f"{kind} of {low} to {high:g} voxels"
-            print_errors(f"Volume errors of {which}", [(one[1], one[3]) for one in some])
-            if kind == "labels":
-                print_errors(f"Misclassified voxels of {which}", [one[2:] for one in some])
+    for low, high in ((60, 1e9), (8, 59)):
+        some = [one for o in outcomes for one in o.labels if low <= one[0] <= high]
+        which = f"labels of {low} to {high:g} voxels"
+        print_errors(f"Volume errors of {which}", [(one[1], one[3]) for one in some])
+        print_errors(f"Misclassified voxels of {which}", [one[2:] for one in some])
     slow = [o.seconds for o in outcomes if o.seconds > SLOW_SECONDS]
     print(f"{sum(o.surfaces for o in outcomes)} surfaces of "
           f"{sum(o.triangles for o in outcomes)} triangles judged; processor time "
@@ -321,11 +249,7 @@ def main():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=1)
     parser.add_argument("--labels", action="store_true")
-    parser.add_argument("--voxels", type=float, default=1e5,
-                        help="limit on the size of label maps, at the smallest voxel distance")
-    parser.add_argument("--minutes", type=float, default=1e6, help="start no seed after this time")
     arguments = parser.parse_args()
-    arguments.end = time.time() + 60 * arguments.minutes
     arguments.keep = arguments.seeds == 1
     names = subprocess.run([arguments.judge, "--help"], capture_output=True, text=True,
                            check=True).stdout.split()
@@ -334,8 +258,6 @@ def main():
     with concurrent.futures.ProcessPoolExecutor(arguments.jobs) as pool:
         tasks = [pool.submit(try_seed, seed, arguments, names) for seed in seeds]
         for task in concurrent.futures.as_completed(tasks):
-            if task.result() is None:
-                continue
             outcomes.append(task.result())
             if outcomes[-1].exceptions or outcomes[-1].seconds > SLOW_SECONDS or arguments.keep:
                 print(outcomes[-1].line(), flush=True)

@@ -25,16 +25,13 @@ def write(writer, data, folder, name):
 class RandomRun:
     """Command-line arguments for files in `folder`, which is the working folder of the run."""
 
-    def __init__(self, seed, folder, only_labels, most_voxels_of_labels=1e5):
+    def __init__(self, seed, folder, only_labels):
         self.rng = np.random.default_rng(seed)
         self.folder = folder
         self.is_default = False  # label maps: default settings
         self.selected = None  # selected labels; None: all
-        most_voxels = 150000 if self.chance(.05) else 25000
-        self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         self.is_of_labels = only_labels or self.chance(.15)
-        self.arguments = (self.of_small_labels(most_voxels_of_labels) if only_labels else
-                          self.of_labels() if self.is_of_labels else self.of_surface())
+        self.arguments = self.of_labels() if self.is_of_labels else self.of_surface()
         self.arguments = [self.volume, *self.arguments, "--threads", str(self.rng.integers(1, 3))]
 
     def chance(self, share):
@@ -49,26 +46,10 @@ class RandomRun:
     # ---- Surfaces of labels ----
 
     def of_labels(self):
-        labels, self.kind = random_volumes.random_labels(self.rng, self.size, self.spacing)
-        smallest = self.spacing.min()
-        self.write_labels(labels)
-        return [
-            "labels", "--labels", "all",
-            *self.now_and_then(.3, "--smoothing", self.number(0, 4)),
-            *self.now_and_then(.3, "--metric", "voxels"),
-            *self.now_and_then(.3, "--finest", str(self.rng.choice((-1, 1, 2)))),
-            *self.now_and_then(.1, "--edge-length", f"{smallest * self.rng.uniform(.7, 6):.6g}"),
-            *self.now_and_then(.2, "--keep", "largest"), *self.tolerance()]
-
-    def write_labels(self, labels):
+        labels, self.spacing, self.kind = random_volumes.random_labels(self.rng)
         self.labels, self.size = labels, np.array(labels.shape[::-1])
         image = random_volumes.make_image(self.rng, labels.astype("u1"), self.spacing)
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
-
-    def of_small_labels(self, most_voxels):
-        labels, self.spacing, self.kind = random_volumes.random_small_labels(self.rng,
-                                                                             most_voxels)
-        self.write_labels(labels)
         smallest = self.spacing.min()
         smoothing = self.now_and_then(.4, "--smoothing", self.rng.choice(("0", self.number(.1, 4)),
                                                                          p=(.15, .85)))
@@ -76,7 +57,8 @@ class RandomRun:
             *self.now_and_then(.5, "--finest", str(self.rng.choice((-1, 1, 2)))),
             *self.now_and_then(.2, "--edge-length", f"{smallest * self.rng.uniform(.7, 4):.6g}"),
             *self.now_and_then(.3, "--keep", "largest")]
-        tolerance = self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1))
+        tolerance = [*self.now_and_then(.3, "--voxel-tolerance", self.number(0, 1)),
+                     *(self.tolerance() if other else [])]
         merge = self.chance(.05)
         box = [] if merge else self.now_and_then(.15, "--box-faces", "flat")
         self.is_default = not (other or tolerance or box) and smoothing[1:] != ["0"]
@@ -98,6 +80,8 @@ class RandomRun:
     # ---- The surface of an object ----
 
     def of_surface(self):
+        most_voxels = 150000 if self.chance(.05) else 25000
+        self.size, self.spacing = random_volumes.size_and_spacing(self.rng, most_voxels)
         field, self.kind = random_volumes.random_field(self.rng, self.size, self.spacing)
         voxels = random_volumes.to_type(self.rng, field, self.rng.choice(random_volumes.TYPES))
         image = random_volumes.make_image(self.rng, voxels, self.spacing)
@@ -106,7 +90,7 @@ class RandomRun:
         if self.chance(.15):
             random_volumes.add_array(image, "edges", self.rng.random(voxels.shape) ** 4)
             arguments += ["--edges", "edges", "--edge-attraction", self.number(.1, 3)]
-        arguments += self.grading()
+        arguments += [*self.now_and_then(.2, "--thin-parts"), *self.tolerance()]
         self.volume = write(vtkXMLImageDataWriter(), image, self.folder, "volume.vti")
         return arguments
 
@@ -181,9 +165,6 @@ class RandomRun:
                                str(self.rng.choice(("none", "objects-and-cavities")))),
             *self.now_and_then(.1, "--minimum-part-size", str(self.rng.integers(1, 100))),
             *self.now_and_then(.1, "--keep", "largest")]
-
-    def grading(self):
-        return [*self.now_and_then(.2, "--thin-parts"), *self.tolerance()]
 
     def tolerance(self):
         """Return a random tolerance, from one that cannot be met to several voxels."""

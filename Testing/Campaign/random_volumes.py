@@ -162,17 +162,6 @@ def random_field(rng, size, spacing):
     return field, "+".join(names)
 
 
-def random_labels(rng, size, spacing):
-    """Return a map of 1 to 5 labels, some possibly without voxels, and its name."""
-    shapes = Shapes(rng, size, spacing, rng.random() < .5)
-    labels, names = np.zeros(shapes.shape, int), []
-    for label in range(1, rng.integers(2, 7)):
-        names.append(shapes.any())
-        field = scaled(getattr(shapes, names[-1])())
-        labels[field > rng.uniform(.3, .9)] = label
-    return labels, "+".join(names)
-
-
 class LabelMaps(Shapes):
     """Small maps of up to 40 labels: integers [z, y, x]; 0 is the background."""
 
@@ -181,6 +170,12 @@ class LabelMaps(Shapes):
         self.labels = np.zeros(self.shape, int)
         self.count = int(rng.integers(10, 41) if rng.random() < .2 else rng.integers(1, 10))
         self.centers = rng.random((self.count, 3)) * self.extent
+
+    def shapes(self):
+        """Any shapes over each other."""
+        for label in range(1, min(self.count, 6) + 1):
+            field = scaled(getattr(self, self.any())())
+            self.labels[field > self.rng.uniform(.3, .9)] = label
 
     def touching_blobs(self):
         for label, centre in enumerate(self.centers, 1):
@@ -243,19 +238,16 @@ class LabelMaps(Shapes):
             self.labels[tuple(map(slice, low.clip(0), high.clip(0)))] = label
 
 
-def random_small_labels(rng, most_voxels=1e5):
-    """Return a map, its voxel distances (up to 1 : 20) and its name.
-
-    most_voxels: limit on the number of voxels at the smallest voxel distance.
-    """
+def random_labels(rng):
+    """Return a small map, its voxel distances (up to 1 : 20) and its name."""
     size = np.exp(rng.uniform(np.log(8), np.log(36), 3)).astype(int)
     spacing = np.exp(rng.uniform(0, np.log(20), 3)) if rng.random() < .5 else np.ones(3)
     long = (spacing / spacing.min()).prod()  # the number of triangles grows by this factor
-    size = np.maximum(size * min(1, most_voxels / (long * size.prod())) ** (1 / 3), 5).astype(int)
+    size = np.maximum(size * min(1, 1e5 / (long * size.prod())) ** (1 / 3), 5).astype(int)
     factor = 1 + int(rng.random() < .15)
     maps, names = LabelMaps(rng, -(-size // factor), spacing), []
-    kinds = {"touching_blobs": .15, "grains": .15, "layers": .1, "plates": .1, "slices": .1,
-             "rods": .1, "isolated_voxels": .1, "mixture": .15, "nested": .05}
+    kinds = {"touching_blobs": .1, "grains": .15, "layers": .1, "plates": .1, "slices": .1,
+             "rods": .1, "isolated_voxels": .1, "mixture": .15, "nested": .05, "shapes": .05}
     while not maps.labels.any() or rng.random() < .25:
         before, names = maps.labels, names + [str(rng.choice(list(kinds), p=list(kinds.values())))]
         getattr(maps, names[-1])()

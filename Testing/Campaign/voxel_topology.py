@@ -49,20 +49,6 @@ def roots_of(count, pairs):
             root = root[root]
 
 
-def whole_parts(voxels, most=3):
-    """Return the index of the part of each voxel: voxels of a label joined by faces, edges or
-    corners, whose volume is preserved. most: 1 for faces only."""
-    number = np.arange(voxels.size).reshape(voxels.shape)
-    links = []
-    for step in itertools.product((-1, 0, 1), repeat=3):
-        if step > (0, 0, 0) and np.count_nonzero(step) <= most:
-            here = tuple(slice(max(-s, 0), n - max(s, 0)) for s, n in zip(step, voxels.shape))
-            there = tuple(slice(max(s, 0), n - max(-s, 0)) for s, n in zip(step, voxels.shape))
-            where = voxels[here] == voxels[there]
-            links.append(np.stack([number[here][where], number[there][where]]))
-    return np.unique(roots_of(voxels.size, links), return_inverse=True)[1].reshape(voxels.shape)
-
-
 def parts_without(label, voxels, rank):
     """Return the components of the complement of a label, by the complementary connectivity."""
     cells, number = octants_of(voxels), octants_of(np.arange(voxels.size).reshape(voxels.shape))

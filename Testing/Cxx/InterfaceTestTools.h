@@ -38,82 +38,62 @@ struct InterfaceScene
   InterfaceScene(const InterfaceScene&) = delete;
 };
 
-/** Four blocks of n voxels that meet at the middle of a cube, surrounded by background. */
-inline LabelMap FourBlocks(int n)
+/** A cube of objects objectAt(i, j, k) in background. */
+inline LabelMap InBackground(
+  int side, int objects, const std::function<int(int, int, int)>& objectAt)
 {
   const int margin = LabelBricks::Side;
-  const int side = 2 * n + 2 * margin;
-  return MakeLabelMap({ side, side, side }, 4,
-    [=](int i, int j, int k)
+  return MakeLabelMap({ side, side, side }, objects,
+    [&](int i, int j, int k)
     {
-      const auto isIn = [=](int at) { return at >= margin && at < side - margin; };
-      return isIn(i) && isIn(j) && isIn(k) ? 1 + (i >= side / 2) + 2 * (j >= side / 2) : 0;
+      const bool isIn = std::min({ i, j, k }) >= margin && std::max({ i, j, k }) < side - margin;
+      return isIn ? objectAt(i, j, k) : 0;
     });
+}
+
+/** A point, and the largest distance from it in its Voronoi cell. */
+using Cell = std::array<double, 4>;
+
+/** Return the number of the cell, from 1, that contains a point; 0: none. */
+inline int CellAt(const std::vector<Cell>& cells, double x, double y, double z)
+{
+  const auto far = [&](const Cell& cell)
+  { return std::hypot(x - cell[0], y - cell[1], z - cell[2]); };
+  const auto nearest = std::min_element(
+    cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) { return far(a) < far(b); });
+  return far(*nearest) < (*nearest)[3] ? 1 + static_cast<int>(nearest - cells.begin()) : 0;
 }
 
 /** Truncated Voronoi cells of random points, each an object, in background. */
 inline LabelMap ManyCells(int side, int objects, unsigned seed)
 {
-  const auto next = [&seed]
-  {
-    seed = seed * 1664525u + 1013904223u;
-    return static_cast<double>(seed >> 8) / (1u << 24);
-  };
-  std::vector<std::array<double, 4>> cells(static_cast<std::size_t>(objects));
-  const int margin = LabelBricks::Side;
-  for (std::array<double, 4>& cell : cells)
+  std::vector<Cell> cells(static_cast<std::size_t>(objects));
+  for (Cell& cell : cells)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      cell[axis] = margin + next() * (side - 2 * margin);
+      cell[axis] = LabelBricks::Side + RandomShare(seed) * (side - 2 * LabelBricks::Side);
     }
-    cell[3] = 3. + next() * side / 4.; // maximum radius
+    cell[3] = 3. + RandomShare(seed) * side / 4.;
   }
-  return MakeLabelMap({ side, side, side }, objects,
-    [&](int i, int j, int k)
-    {
-      int nearest = 0;
-      double least = 1e9;
-      for (int n = 0; n < objects; ++n)
-      {
-        const std::array<double, 4>& cell = cells[static_cast<std::size_t>(n)];
-        const double distance = std::hypot(i - cell[0], j - cell[1], k - cell[2]);
-        if (distance < least)
-        {
-          least = distance;
-          nearest = distance < cell[3] ? n + 1 : 0;
-        }
-      }
-      const auto isIn = [=](int at) { return at >= margin && at < side - margin; };
-      return isIn(i) && isIn(j) && isIn(k) ? nearest : 0;
-    });
+  return InBackground(side, objects, [&](int i, int j, int k) { return CellAt(cells, i, j, k); });
 }
 
 /** Voronoi cells of random points that fill the map. */
 inline LabelMap Grains(
   const std::array<int, 3>& size, const std::array<double, 3>& spacing, int objects, unsigned seed)
 {
-  std::vector<std::array<double, 3>> seeds(static_cast<std::size_t>(objects));
-  for (std::array<double, 3>& at : seeds)
+  std::vector<Cell> cells(static_cast<std::size_t>(objects), Cell{ 0., 0., 0., 1e9 });
+  for (Cell& cell : cells)
   {
     for (int axis = 0; axis < 3; ++axis)
     {
-      seed = seed * 1664525u + 1013904223u;
-      at[axis] = static_cast<double>(seed >> 8) / (1u << 24) * size[axis];
+      cell[axis] = RandomShare(seed) * size[axis] * spacing[axis];
     }
   }
   LabelMap map = MakeLabelMap(size, objects,
     [&](int i, int j, int k)
-    {
-      const auto far = [&](const std::array<double, 3>& at)
-      {
-        return std::hypot(
-          spacing[0] * (i - at[0]), spacing[1] * (j - at[1]), spacing[2] * (k - at[2]));
-      };
-      const auto nearest = std::min_element(
-        seeds.begin(), seeds.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
-      return 1 + static_cast<int>(nearest - seeds.begin());
-    });
+    { return CellAt(cells, spacing[0] * i, spacing[1] * j, spacing[2] * k); });
   map.Spacing = spacing;
   return map;
 }
@@ -122,10 +102,7 @@ inline LabelMap Grains(
 inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
 {
   const auto next = [&seed](int choices)
-  {
-    seed = seed * 1664525u + 1013904223u;
-    return static_cast<int>((seed >> 8) % static_cast<unsigned>(choices));
-  };
+  { return static_cast<int>(RandomBits(seed) % static_cast<unsigned>(choices)); };
   const int margin = LabelBricks::Side;
   std::map<std::array<int, 3>, int> voxels;
   for (int n = 0; n < side; ++n)
@@ -143,8 +120,7 @@ inline LabelMap ScatteredVoxels(int side, int objects, unsigned seed)
     }
     voxels[voxel] = next(3) > 0 ? object : 1 + next(objects);
   }
-  const int size = side + 2 * margin;
-  return MakeLabelMap({ size, size, size }, objects,
+  return InBackground(side + 2 * margin, objects,
     [&](int i, int j, int k)
     {
       const auto found = voxels.find({ i, j, k });

@@ -23,28 +23,30 @@ inline LabelMap MakeLabelMap(
   return map;
 }
 
+/** Return pseudo-random bits, and change the seed. */
+inline unsigned RandomBits(unsigned& seed)
+{
+  seed = seed * 1664525u + 1013904223u;
+  return seed >> 8;
+}
+
+/** Return a pseudo-random number from 0 to 1. */
+inline double RandomShare(unsigned& seed)
+{
+  return static_cast<double>(RandomBits(seed)) / (1u << 24);
+}
+
 /** Return a map with a pseudo-random object from 0 to `objects` at each voxel. */
 inline LabelMap NoisyLabelMap(const std::array<int, 3>& size, int objects, unsigned seed)
 {
   return MakeLabelMap(size, objects,
     [&](int, int, int)
-    {
-      seed = seed * 1664525u + 1013904223u;
-      return static_cast<int>((seed >> 16) % (static_cast<unsigned>(objects) + 1));
-    });
+    { return static_cast<int>((RandomBits(seed) >> 8) % (static_cast<unsigned>(objects) + 1)); });
 }
 
 inline float ValueAt(const LabelField& field, int i, int j, int k)
 {
   return field.Values[static_cast<std::size_t>(field.Box.NumberOf(i, j, k))];
-}
-
-/** Call visit(i, j, k, value) for each voxel of the field, also beyond the map. */
-template <typename Visitor>
-void ForVoxelsOf(const LabelField& field, Visitor&& visit)
-{
-  ForBox(field.Box.First, field.Box.End,
-    [&](int i, int j, int k) { visit(i, j, k, ValueAt(field, i, j, k)); });
 }
 }
 

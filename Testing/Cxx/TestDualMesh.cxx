@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Interfaces/CellPattern.h"
+#include "InterfaceTestTools.h"
 #include "ThreadTestTools.h"
 #include "VoxelScenes.h"
 
@@ -79,6 +80,15 @@ void ExpectSoundPatterns(bool isWithBackground, unsigned seed)
       }
       return text.str();
     });
+}
+
+/** Voronoi cells of random points, numbered from `first`. */
+VoxelScene GrainScene(int side, int grains, int first, unsigned seed, int outside = -1)
+{
+  const LabelMap map = Grains({ side, side, side }, { 1., 1., 1. }, grains, seed);
+  return VoxelScene(
+    { side, side, side }, [&](int i, int j, int k) { return map.At(i, j, k) - 1 + first; },
+    outside);
 }
 
 /** Expect the topology of a label from its voxels and from the mesh. */

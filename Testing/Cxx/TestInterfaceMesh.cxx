@@ -7,38 +7,6 @@ using namespace volumic;
 
 namespace
 {
-/** Two tetrahedra, objects 1 and 2, with a common face. */
-InterfaceMesh TwoTetrahedra()
-{
-  InterfaceMesh mesh;
-  mesh.AddVertex(Vector(0.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(1.f, 0.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(0.f, 1.f, 0.f), Stratum::Interface);
-  mesh.AddVertex(Vector(0.3f, 0.3f, -1.f), Stratum::Interface); // object 1 is below
-  mesh.AddVertex(Vector(0.3f, 0.3f, 1.f), Stratum::Interface);
-  mesh.AddFace({ { 0, 1, 2 }, 1, 2 });
-  const std::array<std::array<int, 2>, 3> edges = { { { 0, 1 }, { 1, 2 }, { 2, 0 } } };
-  for (const std::array<int, 2>& edge : edges)
-  {
-    mesh.AddFace({ { edge[0], edge[1], 3 }, 0, 1 });
-    mesh.AddFace({ { edge[1], edge[0], 4 }, 0, 2 });
-  }
-  mesh.FindStrata();
-  return mesh;
-}
-}
-
-TEST(InterfaceMesh, HasLinesAtEdgesOfThreeFaces)
-{
-  const InterfaceMesh mesh = TwoTetrahedra();
-  EXPECT_EQ(mesh.FindLines(), (std::vector<std::array<int, 2>>{ { 0, 1 }, { 0, 2 }, { 1, 2 } }));
-  EXPECT_EQ(mesh.StratumOf[0], Stratum::Line);
-  EXPECT_EQ(mesh.StratumOf[3], Stratum::Interface);
-  ExpectSound(mesh);
-}
-
-namespace
-{
 /** Four faces around an edge along z, at angles in degrees, between objects 1, 2, 3 and 4. */
 InterfaceMesh FacesAt(const std::array<double, 4>& angles)
 {

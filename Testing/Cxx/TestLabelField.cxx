@@ -19,9 +19,12 @@ LabelField FieldOf(
 int CountWrongSigns(const LabelMap& map, int object, const LabelField& field)
 {
   int wrong = 0;
-  ForVoxelsOf(field,
-    [&](int i, int j, int k, float value)
-    { wrong += (map.At(i, j, k) == object) != (value > 0.f) || value == 0.f; });
+  ForBox(field.Box.First, field.Box.End,
+    [&](int i, int j, int k)
+    {
+      const float value = ValueAt(field, i, j, k);
+      wrong += (map.At(i, j, k) == object) != (value > 0.f) || value == 0.f;
+    });
   return wrong;
 }
 }

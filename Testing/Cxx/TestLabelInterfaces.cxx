@@ -23,16 +23,11 @@ double TouchingBlocks(int i, int j, int k)
   return std::hypot(i - 8., j - 10., k - 10.) < 4. ? 5 : i < 14 ? 3 : 7;
 }
 
-vtkSmartPointer<vtkImageData> BlocksImage()
+/** Return an updated filter. */
+vtkSmartPointer<vtkLabelsToSurfaces> FilterOfBlocks(
+  const ChoiceOf<vtkLabelsToSurfaces>& choose = {})
 {
-  return LabelImageOf(28, 20, 20, TouchingBlocks);
-}
-
-vtkSmartPointer<vtkLabelsToSurfaces> FilterOf(vtkImageData* image)
-{
-  auto filter = vtkSmartPointer<vtkLabelsToSurfaces>::New();
-  filter->SetInputData(image);
-  return filter;
+  return LabelSurfacesOf(LabelImageOf(28, 20, 20, TouchingBlocks), choose);
 }
 
 using Sides = std::array<int, 2>;
@@ -79,19 +74,11 @@ void ExpectPointsOf(vtkPolyData* surface, vtkPolyData* interfaces)
   }
 }
 
-/** Update the filter and return its error messages. */
-std::string ErrorOf(vtkLabelsToSurfaces* filter)
-{
-  MessagesOf errors(filter);
-  filter->Update();
-  return errors.Get();
-}
 }
 
 TEST(LabelInterfaces, AreUnique)
 {
-  const auto filter = FilterOf(BlocksImage());
-  filter->Update();
+  const auto filter = FilterOfBlocks();
   vtkPolyData* interfaces = filter->GetInterfaces();
   EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 3, 0 }, { 7, 0 }, { 3, 5 }, { 3, 7 } }));
   EXPECT_GT(interfaces->GetNumberOfLines(), 10); // where 3, 7 and the outside meet
@@ -106,8 +93,7 @@ TEST(LabelInterfaces, AreUnique)
 
 TEST(LabelInterfaces, FormTheBlocks)
 {
-  const auto filter = FilterOf(BlocksImage());
-  filter->Update();
+  const auto filter = FilterOfBlocks();
   vtkPolyData* interfaces = filter->GetInterfaces();
   vtkIdType triangles = 0;
   for (unsigned int block = 0; block < 3; ++block)
@@ -131,11 +117,13 @@ TEST(LabelInterfaces, FormTheBlocks)
 
 TEST(LabelInterfaces, ContainOnlySelectedLabels)
 {
-  const auto filter = FilterOf(BlocksImage());
-  filter->AddLabel(5);
-  filter->AddLabel(7);
-  filter->SetBackgroundLabel(-1); // Label 0 is not background then.
-  filter->Update();
+  const auto filter = FilterOfBlocks(
+    [](vtkLabelsToSurfaces* f)
+    {
+      f->AddLabel(5);
+      f->AddLabel(7);
+      f->SetBackgroundLabel(-1); // Label 0 is not background then.
+    });
   vtkPolyData* interfaces = filter->GetInterfaces();
   EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 5, -1 }, { 7, -1 } }));
   EXPECT_EQ(interfaces->GetNumberOfPolys(),
@@ -167,11 +155,13 @@ TEST(LabelInterfaces, ContainOnlySelectedLabels)
 
 TEST(LabelInterfaces, OfMergedLabelsHaveJunctionLines)
 {
-  const auto filter = FilterOf(BlocksImage());
-  filter->AddLabel(3);
-  filter->AddLabel(5);
-  filter->MergeOn();
-  filter->Update();
+  const auto filter = FilterOfBlocks(
+    [](vtkLabelsToSurfaces* f)
+    {
+      f->AddLabel(3);
+      f->AddLabel(5);
+      f->MergeOn();
+    });
   vtkPolyData* interfaces = filter->GetInterfaces();
   EXPECT_EQ(AllSides(interfaces), (std::set<Sides>{ { 3, 0 } })) << "5 is inside";
   ASSERT_GT(interfaces->GetNumberOfLines(), 10) << "where 3, 7 and 0 meet";
@@ -181,8 +171,7 @@ TEST(LabelInterfaces, OfMergedLabelsHaveJunctionLines)
 
 TEST(LabelInterfaces, AreCoarserWithTolerance)
 {
-  const auto filter = FilterOf(BlocksImage());
-  filter->Update();
+  const auto filter = FilterOfBlocks();
   const auto fine = static_cast<double>(filter->GetInterfaces()->GetNumberOfPoints());
   EXPECT_FALSE(filter->GetInterfaces()->GetPointData()->GetArray("EdgeSize"));
   EXPECT_FALSE(BlockOf(filter, 0)->GetFieldData()->GetArray("WithinTolerance"));
@@ -214,13 +203,15 @@ TEST(LabelInterfaces, AreCoarserWithTolerance)
 
 TEST(LabelInterfaces, RespectMaximumEdgeLength)
 {
-  const auto image = BlocksImage();
+  const auto image = LabelImageOf(28, 20, 20, TouchingBlocks);
   image->SetSpacing(0.5, 0.5, 0.5);
-  const auto filter = FilterOf(image);
-  filter->SetTolerance(0.2);
-  filter->SetVoxelTolerance(0.0); // The corners of blocks then need short edges.
-  filter->SetMaximumEdgeLength(1.5);
-  filter->Update();
+  const auto filter = LabelSurfacesOf(image,
+    [](vtkLabelsToSurfaces* f)
+    {
+      f->SetTolerance(0.2);
+      f->SetVoxelTolerance(0.0); // The corners of blocks then need short edges.
+      f->SetMaximumEdgeLength(1.5);
+    });
   vtkPolyData* interfaces = filter->GetInterfaces();
   vtkDataArray* sizes = interfaces->GetPointData()->GetArray("EdgeSize");
   EXPECT_NEAR(sizes->GetRange()[0], 0.5 * 0.8 * std::cbrt(0.2387), 1e-3) << "single voxel";
@@ -241,8 +232,7 @@ TEST(LabelInterfaces, RespectMaximumEdgeLength)
 TEST(LabelInterfaces, AreFlatAtImageBorder)
 {
   const auto filter =
-    FilterOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
-  filter->Update();
+    LabelSurfacesOf(LabelImageOf(12, 10, 9, [](int i, int, int) { return i < 5 ? 3. : 7.; }));
   EXPECT_FALSE(filter->GetInterfaces()->GetCellData()->GetArray("BoxFace"));
   EXPECT_LT(filter->GetInterfaces()->GetBounds()[0], -0.6);
   filter->SetBoxFacesToFlat();
@@ -275,21 +265,9 @@ TEST(LabelInterfaces, AreFlatAtImageBorder)
   EXPECT_EQ(triangles[5], triangles[6]);
   filter->SetInputData(
     LabelImageOf(12, 10, 9, [](int i, int j, int) { return i + j < 10 ? 3. : 7.; }));
-  EXPECT_TRUE(Has(ErrorOf(filter), "not periodic along x"));
+  EXPECT_TRUE(Has(MessagesOfUpdate(filter), "not periodic along x"));
   filter->SetBoxFaces(3);
-  EXPECT_TRUE(Has(ErrorOf(filter), "Box Faces is 3"));
-}
-
-TEST(LabelInterfaces, IgnoreSharedInterfacesProperty)
-{
-  const auto filter = FilterOf(BlocksImage());
-  EXPECT_TRUE(filter->GetSharedInterfaces());
-  filter->SharedInterfacesOff();
-  EXPECT_FALSE(filter->GetSharedInterfaces());
-  filter->Update();
-  const auto other = FilterOf(BlocksImage());
-  other->Update();
-  ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
+  EXPECT_TRUE(Has(MessagesOfUpdate(filter), "Box Faces is 3"));
 }
 
 class CancelledLabelInterfaces : public testing::TestWithParam<double>
@@ -298,7 +276,8 @@ class CancelledLabelInterfaces : public testing::TestWithParam<double>
 
 TEST_P(CancelledLabelInterfaces, AreMarkedAndRecomputed)
 {
-  const auto filter = FilterOf(BlocksImage());
+  vtkNew<vtkLabelsToSurfaces> filter;
+  filter->SetInputData(LabelImageOf(28, 20, 20, TouchingBlocks));
   ProgressListener listener(filter);
   listener.StopAt = GetParam();
   filter->Update();
@@ -314,9 +293,7 @@ TEST_P(CancelledLabelInterfaces, AreMarkedAndRecomputed)
   listener.StopAt = 2.0;
   filter->Modified();
   filter->Update();
-  const auto other = FilterOf(BlocksImage());
-  other->Update();
-  ExpectSameSurfaces(filter->GetInterfaces(), other->GetInterfaces());
+  ExpectSameSurfaces(filter->GetInterfaces(), FilterOfBlocks()->GetInterfaces());
 }
 
 INSTANTIATE_TEST_SUITE_P(At, CancelledLabelInterfaces, testing::Values(0.01, 0.5));

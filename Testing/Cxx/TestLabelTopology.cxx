@@ -10,8 +10,6 @@
 
 #include <vtkCell.h>
 
-#include <ostream>
-
 using namespace volumic;
 
 namespace
@@ -26,11 +24,6 @@ struct LabelScene
   double Excess = 1.;         ///< factor of the volume error bound
   int MisclassifiedParts = 0; ///< maximum number of parts with wrong volumes
 };
-
-void PrintTo(const LabelScene& scene, std::ostream* stream)
-{
-  *stream << scene.Name;
-}
 
 vtkSmartPointer<vtkImageData> ImageOf(const VoxelScene& scene)
 {

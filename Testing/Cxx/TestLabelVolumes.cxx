@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <functional>
-#include <ostream>
 #include <string>
 
 using namespace volumic::support;
@@ -25,11 +24,6 @@ struct VolumeScene
   std::array<double, 3> HalfSize; ///< world units
   Inside IsInside;
 };
-
-void PrintTo(const VolumeScene& scene, std::ostream* stream)
-{
-  *stream << scene.Name;
-}
 
 LabelMap MapOf(const VolumeScene& scene)
 {

@@ -21,12 +21,12 @@ bool IsOffLines(const InterfaceMesh& mesh, const InterfaceMesh::Face& face)
 }
 
 InterfaceMesh Make(
-  InterfaceScene& scene, Executor& executor = OnThisThread(),
-  const std::function<bool(double)>& progress = [](double) { return true; }, double tolerance = 0.)
+  InterfaceScene& scene, double tolerance = 0.,
+  const std::function<bool(double)>& progress = [](double) { return true; })
 {
   InterfaceOptions options;
   options.Tolerance = tolerance;
-  return MakeInterfaces(*scene.Fields, options, executor, progress);
+  return MakeInterfaces(*scene.Fields, options, OnThisThread(), progress);
 }
 
 /** Three overlapping balls. */
@@ -42,12 +42,14 @@ LabelMap ThreeBalls()
     });
 }
 
-double LeastAngle(const InterfaceMesh& mesh)
+/** Return the least angle in degrees, of all triangles or of those off the junction lines. */
+double LeastAngle(const InterfaceMesh& mesh, bool isOfAll)
 {
-  double least = 1.;
+  double least = 90.;
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
-    least = std::min(least, SmallestAngle(TriangleOf(mesh, face.Vertex)));
+    const double angle = SmallestAngle(TriangleOf(mesh, face.Vertex)) * 57.2958;
+    least = isOfAll || IsOffLines(mesh, face) ? std::min(least, angle) : least;
   }
   return least;
 }
@@ -121,13 +123,7 @@ TEST(MakeInterfaces, HasNoSliversAtNecks)
     }));
   const InterfaceMesh mesh = Make(scene);
   ExpectSound(mesh);
-  double least = 90.;
-  for (const InterfaceMesh::Face& face : mesh.Faces)
-  {
-    const double angle = SmallestAngle(TriangleOf(mesh, face.Vertex));
-    least = IsOffLines(mesh, face) ? std::min(least, angle * 57.2958) : least;
-  }
-  EXPECT_GT(least, 25.);
+  EXPECT_GT(LeastAngle(mesh, false), 25.);
 }
 
 TEST(MakeInterfaces, HasNoNarrowWedges)
@@ -136,7 +132,7 @@ TEST(MakeInterfaces, HasNoNarrowWedges)
   const InterfaceMesh mesh = Make(scene);
   ExpectSound(mesh);
   EXPECT_GT(NarrowestWedge(mesh).Angle * 57.2958, 10.);
-  EXPECT_GT(LeastAngle(mesh) * 57.2958, 20.);
+  EXPECT_GT(LeastAngle(mesh, true), 20.);
 }
 
 TEST(MakeInterfaces, HasNoNarrowGaps)
@@ -160,14 +156,14 @@ TEST(MakeInterfaces, HasNoNarrowGaps)
   }
 }
 
-TEST(MakeInterfaces, InvertsNoParts)
+TEST(MakeInterfaces, InvertsNoPartsWithAndWithoutTolerance)
 {
   for (unsigned seed = 0; seed < 40; ++seed)
   {
     SCOPED_TRACE(seed);
     const int objects = 1 + static_cast<int>(seed) % 3;
     InterfaceScene scene(ScatteredVoxels(9, objects, seed));
-    const InterfaceMesh mesh = Make(scene);
+    const InterfaceMesh mesh = Make(scene, 0.1 * (seed % 4));
     ExpectSound(mesh);
     for (const auto& [object, surface] : SurfacesOf(mesh))
     {
@@ -187,10 +183,7 @@ TEST_P(InterfacesInBox, AreFlatAtBoxSides)
   const bool isPeriodic = GetParam()[4] != 0.;
   InterfaceScene scene(
     Grains({ 40, 36, 37 }, spacing, 14, 3), { { 8, 8, 8 }, { 32, 29, 28 } }, isPeriodic);
-  InterfaceOptions options;
-  options.Tolerance = GetParam()[3];
-  const InterfaceMesh mesh =
-    MakeInterfaces(*scene.Fields, options, OnThisThread(), [](double) { return true; });
+  const InterfaceMesh mesh = Make(scene, GetParam()[3]);
   ExpectSound(mesh);
   for (const int faces : ExpectFlatSides(mesh, *scene.Fields))
   {
@@ -259,25 +252,24 @@ TEST(MakeInterfaces, EndAtBoxInNoise)
   }
 }
 
-class CancelledInterfaces : public testing::TestWithParam<int>
+TEST(MakeInterfaces, IsValidIfCancelled)
 {
-};
-
-TEST_P(CancelledInterfaces, AreValid)
-{
-  InterfaceScene scene(ManyCells(28, 6, 4));
-  int calls = 0;
-  const InterfaceMesh mesh =
-    Make(scene, OnThisThread(), [&](double) { return ++calls < GetParam(); });
-  ExpectSound(mesh);
-  EXPECT_EQ(mesh.Faces.empty(), GetParam() == 1) << "empty only if cancelled by the first call";
+  for (const int last : { 1, 12, 40, 90 })
+  {
+    SCOPED_TRACE(last);
+    InterfaceScene scene(ManyCells(28, 6, 4));
+    int calls = 0;
+    const InterfaceMesh mesh = Make(scene, 0., [&](double) { return ++calls < last; });
+    ExpectSound(mesh);
+    EXPECT_EQ(mesh.Faces.empty(), last == 1) << "empty only if cancelled by the first call";
+  }
 }
-
-INSTANTIATE_TEST_SUITE_P(AfterCalls, CancelledInterfaces, testing::Values(1, 12, 40, 90));
 
 TEST(InterfaceSizes, GrowAtFlatInterfacesWithinGradation)
 {
-  InterfaceScene scene(FourBlocks(10));
+  InterfaceScene scene(InBackground(2 * 10 + 2 * LabelBricks::Side, 4,
+    [](int i, int j, int)
+    { return 1 + (i >= 10 + LabelBricks::Side) + 2 * (j >= 10 + LabelBricks::Side); }));
   InterfaceMesh mesh = Make(scene);
   EXPECT_EQ(LargestSize(mesh), 1.f);
   const SizeBounds bounds = { 0.1, 2.5, 1.8, 0.2 };
@@ -293,18 +285,3 @@ TEST(InterfaceSizes, GrowAtFlatInterfacesWithinGradation)
   EXPECT_EQ(LargestSize(mesh), 1.8f);
   EXPECT_EQ(*std::min_element(mesh.Size.begin(), mesh.Size.end()), 1.f); // at the edges of the cube
 }
-
-class GradedInterfaces : public testing::TestWithParam<int>
-{
-};
-
-TEST_P(GradedInterfaces, AreValid)
-{
-  const auto seed = static_cast<unsigned>(GetParam());
-  InterfaceScene scene(ManyCells(26, 3 + 4 * GetParam(), seed));
-  const InterfaceMesh mesh = Make(
-    scene, OnThisThread(), [](double) { return true; }, 0.1 * (1 + GetParam()));
-  ExpectSound(mesh);
-}
-
-INSTANTIATE_TEST_SUITE_P(Seeds, GradedInterfaces, testing::Range(1, 4));

@@ -5,8 +5,6 @@
 #include "SupportVtkConversions.h"
 #include "SurfaceTestTools.h"
 
-#include <vtkImageCast.h>
-#include <vtkImageConstantPad.h>
 #include <vtkXMLImageDataReader.h>
 
 #include <cstdlib>
@@ -22,7 +20,7 @@ struct Scan
   const char* Name;
   std::string File;
   double IsoValue;
-  double MinimumReach;       ///< ReachVerdict::Share
+  double MinimumReach;       ///< ReachedShare()
   double MaximumDistance;    ///< mean distance of vertices to the isosurface, voxels
   double MinimumRatio = 0.7; ///< radius ratio of all triangles
   double Tolerance = 0.0;    ///< of graded surfaces, world units
@@ -63,12 +61,12 @@ TEST_P(RealScans, GiveValidSurfacesAtAllLevels)
   filter->SetTolerance(scan.Tolerance);
   filter->Update();
 
-  vtkMultiBlockDataSet* levels = filter->GetLevels();
-  ASSERT_GT(levels->GetNumberOfBlocks(), 1u);
-  for (unsigned int h = 0; h < levels->GetNumberOfBlocks(); ++h)
+  const unsigned int levels = filter->GetLevels()->GetNumberOfBlocks();
+  ASSERT_GT(levels, 1u);
+  for (unsigned int h = 0; h < levels; ++h)
   {
     SCOPED_TRACE("level " + std::to_string(h));
-    auto* surface = vtkPolyData::SafeDownCast(levels->GetBlock(h));
+    vtkPolyData* surface = SurfaceAt(filter, h);
     ASSERT_TRUE(surface);
     if (surface->GetNumberOfPoints() == 0)
     {
@@ -94,26 +92,10 @@ TEST_P(RealScans, GiveValidSurfacesAtAllLevels)
   EXPECT_EQ(FieldOf(finest, "Level"), 0);
   EXPECT_EQ(StopReason(finest), "converged");
   // At the border of the image the surface is a fraction of a voxel outside.
-  vtkNew<vtkImageConstantPad> pad;
-  pad->SetInputData(image);
-  const int* extent = image->GetExtent();
-  pad->SetOutputWholeExtent(
-    extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
-  pad->SetConstant(image->GetScalarRange()[0]);
-  vtkNew<vtkImageCast> cast;
-  cast->SetInputConnection(pad->GetOutputPort());
-  cast->SetOutputScalarTypeToFloat();
-  cast->Update();
-  vtkImageData* padded = cast->GetOutput();
-  JudgedVolume volume;
-  volume.Values = static_cast<const float*>(padded->GetScalarPointer());
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    volume.Size[axis] = padded->GetDimensions()[axis];
-  }
-  volume.IsoValue = scan.IsoValue;
+  const auto padded = Padded(image);
+  const JudgedVolume volume = ToJudgedVolume(padded, scan.IsoValue);
   const TriangleSurface indexed = ToTriangleSurface(finest, padded);
-  EXPECT_GT(JudgeReach(indexed, volume).Share, scan.MinimumReach);
+  EXPECT_GT(ReachedShare(indexed, volume), scan.MinimumReach);
   EXPECT_LT(JudgeIsoDistance(indexed, volume).MeanAtVertices, scan.MaximumDistance);
   filter->SetFinestLevel(1);
   filter->SetKeepComponentsToLargestComponent();

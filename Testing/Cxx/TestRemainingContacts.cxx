@@ -100,18 +100,17 @@ TEST(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
   EXPECT_NEAR(FieldOf(surface, "Delta") / FieldOf(level0, "Delta"), 1 / std::sqrt(3.), 1e-6);
   EXPECT_NEAR(
     static_cast<double>(surface->GetNumberOfPoints()) / level0->GetNumberOfPoints(), 3.0, 0.3);
-  const JudgedVolume volume = ToJudgedVolume(scene);
   const SurfaceVerdict verdict =
-    JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"), &volume);
+    JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"));
   EXPECT_TRUE(verdict.Topology.Outward);
   EXPECT_EQ(verdict.Topology.Components.size(), 1u);
   EXPECT_EQ(verdict.Topology.Genus, 1);
   EXPECT_EQ(verdict.Intersections.Pairs, 0u);
   EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);
   EXPECT_EQ(verdict.Lengths.NearPairs, 0u);
-  const SurfaceVerdict before =
-    JudgeSurface(ToTriangleSurface(level0), FieldOf(level0, "Delta"), &volume);
-  EXPECT_LT(verdict.IsoDistance.MeanAtCentroids, 0.6 * before.IsoDistance.MeanAtCentroids);
+  const auto distanceOf = [&](vtkPolyData* judged)
+  { return JudgeIsoDistance(ToTriangleSurface(judged), ToJudgedVolume(scene)).MeanAtCentroids; };
+  EXPECT_LT(distanceOf(surface), 0.6 * distanceOf(level0));
 }
 
 TEST_F(RemainingContacts, AreCountedInSnapshots)

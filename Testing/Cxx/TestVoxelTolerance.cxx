@@ -53,7 +53,7 @@ Misclassified CountMisclassified(vtkPolyData* surface, const LabelMap& map, doub
   for (std::size_t v = 0; v < map.Values.size(); ++v)
   {
     const auto at = [&](std::size_t index, int axis)
-    { return map.Origin[axis] + static_cast<double>(index) * map.Spacing[axis]; };
+    { return static_cast<double>(index) * map.Spacing[axis]; };
     const double value =
       distance->EvaluateFunction(at(v % Size, 0), at(v / Size % Size, 1), at(v / Size / Size, 2));
     if ((map.Values[v] != 0) != (value < 0.0))
@@ -67,7 +67,7 @@ Misclassified CountMisclassified(vtkPolyData* surface, const LabelMap& map, doub
 
 double DihedralOf(vtkPolyData* block)
 {
-  return JudgeDihedrals(ToTriangleSurface(block)).Quantile95;
+  return DihedralQuantile(ToTriangleSurface(block));
 }
 
 double VolumeByVoxels(vtkPolyData* block, const LabelMap& map)

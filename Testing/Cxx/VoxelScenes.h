@@ -170,28 +170,6 @@ inline VoxelScene NoiseScene(int side, int labels, unsigned seed, bool isInBox =
     [&](int, int, int) { return static_cast<int>(random() % static_cast<unsigned>(labels)); },
     isInBox ? labels : -1);
 }
-
-/** Voronoi cells of random seeds, numbered from `first`. */
-inline VoxelScene GrainScene(int side, int grains, int first, unsigned seed, int outside = -1)
-{
-  std::mt19937 random(seed);
-  std::vector<std::array<double, 3>> seeds(static_cast<std::size_t>(grains));
-  for (std::array<double, 3>& at : seeds)
-  {
-    std::generate(at.begin(), at.end(), [&] { return random() % 1000 * side / 1000.; });
-  }
-  return VoxelScene(
-    { side, side, side },
-    [&](int i, int j, int k)
-    {
-      const auto far = [&](const std::array<double, 3>& at)
-      { return std::hypot(i - at[0], j - at[1], k - at[2]); };
-      const auto nearest = std::min_element(
-        seeds.begin(), seeds.end(), [&](const auto& a, const auto& b) { return far(a) < far(b); });
-      return first + static_cast<int>(nearest - seeds.begin());
-    },
-    outside);
-}
 }
 
 #endif

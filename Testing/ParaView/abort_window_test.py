@@ -94,25 +94,15 @@ simple.Render()
 handler = servermanager.ActiveConnection.Session.GetProgressHandler()
 seen = simple.VolumetoSurface(volume, Preview=1)
 unseen = servermanager.filters.VolumetoSurface(Input=volume, Preview=1)
-used = {}
-
-def attend(proxy):
-    begin = []
-    def start(*_):
-        begin[:] = os.times()[:2]
-    def end(*_):
-        used.setdefault(proxy, []).append(sum(os.times()[:2]) - sum(begin))
-    proxy.GetClientSideObject().AddObserver("StartEvent", start)
-    proxy.GetClientSideObject().AddObserver("EndEvent", end)
-
-for proxy in (seen, unseen):
-    attend(proxy)
+used = [], []
 for run in range(6):
-    for proxy, interval in ((unseen, 30), (seen, 0.1)):
+    for proxy, interval, times in ((unseen, 30, used[1]), (seen, 0.1, used[0])):
         handler.SetProgressInterval(interval)
         proxy.IsoValue = 150 + run
+        begin = sum(os.times()[:2])
         proxy.UpdatePipeline()
-print("Used:", [used[proxy] for proxy in (seen, unseen)])
+        times.append(sum(os.times()[:2]) - begin)
+print("Used:", used)
 """
 
 

@@ -48,30 +48,8 @@ def attend(proxy, algorithm):
     algorithm.AddObserver("EndEvent", end)
 """
 
-REPORT_PROGRESS = window.WATCH_FILTERS + """
-def attend(proxy, algorithm):
-    def progress(caller, event):
-        if ", iteration" in (caller.GetProgressText() or "") and caller.GetProgress() < 1:
-            print("Iteration")
-    algorithm.AddObserver("ProgressEvent", progress)
-"""
-
-
 def stop_the_first_run(where):
     return STOP_THE_FIRST_RUN.replace("WHERE", repr(where))
-
-
-class ThinPartsTest(window.WindowTestCase):
-    def test_thin_parts_after_a_run_without(self):
-        path, save = self.saved_state("thin.pvsm")
-        self.play(VOLUME + [
-            FILTER, set_iso_value(230), APPLY, gui.pause(300), SHOW_ADVANCED, gui.pause(300),
-            window.set_box("ThinParts", True), APPLY, gui.pause(300), *save],
-            "volume-thin-parts")
-        surface = testing.fetch(window.open_state(path, "VolumetoSurface1"))
-        self.assertEqual(testing.field(surface, "Level"), -1)
-        for name in ("EdgeSize", "Thickness"):
-            self.assertTrue(surface.GetPointData().HasArray(name), name)
 
 
 class VolumeWindowTest(window.WindowTestCase):
@@ -225,20 +203,6 @@ class VolumeWindowTest(window.WindowTestCase):
         self.assertTrue(self.session.play(opened(flat) + [
             FILTER, gui.pause(300), gui.check(histogram, "visible", "false")]),
             self.session.output)
-
-    def test_warning_after_the_run(self):
-        voxels = numpy.zeros((40, 40, 40), numpy.int16)
-        voxels[10:30, 10:30, 8:20], voxels[10:30, 10:30, 20:34] = 1, 2
-        path = testing.write_volume("labels-for-volume.vti",
-                                    testing.make_image(voxels, name="labels"))
-        # Not self.play(), because a warning opens a box.
-        succeeded = self.session.play(opened(path) + [FILTER, APPLY, gui.pause(500)],
-                                      python=REPORT_PROGRESS)
-        self.session.screenshot(testing.output_path("volume-warning.png"))
-        self.assertTrue(succeeded, self.session.output)
-        self.assertEqual(self.session.output.count("looks like a label map"), 1)
-        self.assertGreater(self.session.output.index("looks like a label map"),
-                           self.session.output.rindex("Iteration"))
 
     def test_undo_redo_and_another_range(self):
         path, save = self.saved_state("redone.pvsm")

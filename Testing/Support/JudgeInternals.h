@@ -34,8 +34,19 @@ inline double Norm(const std::array<double, 3>& a)
   return std::sqrt(Dot(a, a));
 }
 
-/** Throw std::invalid_argument for an invalid index or coordinate (see SurfaceJudge.h). */
-void CheckSurface(const TriangleSurface& surface);
+inline std::array<double, 3> CentroidOf(
+  const TriangleSurface& surface, const std::array<int, 3>& triangle)
+{
+  std::array<double, 3> centroid = { 0.0, 0.0, 0.0 };
+  for (const int corner : triangle)
+  {
+    for (int a = 0; a < 3; ++a)
+    {
+      centroid[a] += surface.Points[corner][a] / 3.0;
+    }
+  }
+  return centroid;
+}
 
 /** Return the sorted edges, each once, the smaller index first. */
 std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface);

@@ -3,8 +3,6 @@
 
 #include "SurfaceJudge.h"
 
-#include "JudgeInternals.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 
@@ -16,11 +14,6 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, std::size_t>;
 
-Kernel::Point_3 CgalPoint(const std::array<double, 3>& p)
-{
-  return { p[0], p[1], p[2] };
-}
-
 /** Test of a pair of triangles as in CGAL's self_intersections(), for a triangle soup. */
 class SoupTest
 {
@@ -29,7 +22,8 @@ public:
 
   Kernel::Point_3 Corner(std::size_t t, int c) const
   {
-    return CgalPoint(this->Surface.Points[this->Surface.Triangles[t][c]]);
+    const std::array<double, 3>& p = this->Surface.Points[this->Surface.Triangles[t][c]];
+    return { p[0], p[1], p[2] };
   }
 
   Kernel::Triangle_3 Triangle(std::size_t t) const
@@ -91,7 +85,6 @@ private:
 
 IntersectionVerdict JudgeIntersections(const TriangleSurface& surface)
 {
-  CheckSurface(surface);
   const SoupTest test(surface);
   IntersectionVerdict verdict;
   std::vector<Box> boxes;

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 
 namespace volumic::support
 {
@@ -68,7 +67,6 @@ void JudgePairs(const TriangleSurface& surface, const std::vector<std::pair<int,
         const bool isCountedHere =
           deltas[other] > deltas[p] || (deltas[other] == deltas[p] && other > vertex);
         verdict.NearPairs += isCountedHere && near[other] != vertex && !neighbours[other].empty();
-        return true;
       });
   }
 }
@@ -82,12 +80,6 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta)
 
 LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<double>& deltas)
 {
-  CheckSurface(surface);
-  if (deltas.size() != surface.Points.size())
-  {
-    throw std::invalid_argument("SurfaceJudge: " + std::to_string(deltas.size()) + " deltas for " +
-      std::to_string(surface.Points.size()) + " points");
-  }
   const std::vector<std::pair<int, int>> edges = UniqueEdges(surface);
   LengthVerdict verdict;
   verdict.Edges = edges.size();
@@ -113,7 +105,6 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<dou
 
 ShapeVerdict JudgeShapes(const TriangleSurface& surface)
 {
-  CheckSurface(surface);
   std::vector<double> ratios;
   ratios.reserve(surface.Triangles.size());
   double sum = 0.0;

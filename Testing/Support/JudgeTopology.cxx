@@ -3,8 +3,6 @@
 
 #include "SurfaceJudge.h"
 
-#include "JudgeInternals.h"
-
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
@@ -14,6 +12,7 @@
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace PMP = CGAL::Polygon_mesh_processing;
 
@@ -83,8 +82,6 @@ void JudgeComponents(Mesh& mesh, TopologyVerdict& verdict)
 {
   const auto component = mesh.add_property_map<Mesh::Face_index, std::size_t>("f:component").first;
   verdict.Components.resize(PMP::connected_components(mesh, component));
-  const auto componentAt = [&](Mesh::Halfedge_index h) -> ComponentVerdict&
-  { return verdict.Components[component[mesh.face(mesh.is_border(h) ? mesh.opposite(h) : h)]]; };
   const Kernel::Point_3 origin = mesh.point(*mesh.vertices().begin());
   for (const auto face : mesh.faces())
   {
@@ -92,31 +89,18 @@ void JudgeComponents(Mesh& mesh, TopologyVerdict& verdict)
     const Kernel::Vector_3 a = mesh.point(mesh.source(h)) - origin;
     const Kernel::Vector_3 b = mesh.point(mesh.target(h)) - origin;
     const Kernel::Vector_3 c = mesh.point(mesh.target(mesh.next(h))) - origin;
-    ComponentVerdict& of = componentAt(h);
-    of.Area += 0.5 * std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
-    of.Volume += a * CGAL::cross_product(b, c) / 6.0;
-    ++of.EulerCharacteristic;
+    const double volume = a * CGAL::cross_product(b, c) / 6.0;
+    verdict.Area += 0.5 * std::sqrt(CGAL::cross_product(b - a, c - a).squared_length());
+    verdict.Components[component[face]] += volume;
+    verdict.Volume += volume;
   }
-  for (const auto vertex : mesh.vertices())
-  {
-    ++componentAt(mesh.halfedge(vertex)).EulerCharacteristic;
-  }
-  for (const auto edge : mesh.edges())
-  {
-    --componentAt(mesh.halfedge(edge)).EulerCharacteristic;
-  }
-  for (const ComponentVerdict& of : verdict.Components)
-  {
-    verdict.EulerCharacteristic += of.EulerCharacteristic;
-    verdict.Area += of.Area;
-    verdict.Volume += of.Volume;
-  }
+  verdict.EulerCharacteristic = static_cast<int>(mesh.number_of_vertices()) +
+    static_cast<int>(mesh.number_of_faces()) - static_cast<int>(mesh.number_of_edges());
 }
 } // namespace
 
 TopologyVerdict JudgeTopology(const TriangleSurface& surface)
 {
-  CheckSurface(surface);
   TopologyVerdict verdict;
   Soup soup = SoupOf(surface, verdict);
   if (soup.Triangles.empty())

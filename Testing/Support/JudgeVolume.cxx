@@ -8,25 +8,16 @@
 #include "PointGrid.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace volumic::support
 {
 namespace
 {
 
-// Radii of JudgeReach(), in voxels.
+// Radii of ReachedShare(), in voxels.
 constexpr double BallRadius = 1.5;
 constexpr double TouchedRadius = 2.5;
 constexpr double FoundRadius = 2.0;
-
-void CheckVolume(const JudgedVolume& volume)
-{
-  if (!volume.Values || volume.Size[0] < 1 || volume.Size[1] < 1 || volume.Size[2] < 1)
-  {
-    throw std::invalid_argument("SurfaceJudge: the volume is empty");
-  }
-}
 
 /** Interpolated value and gradient; outside, the nearest voxel counts. */
 class Field
@@ -84,9 +75,9 @@ private:
   const JudgedVolume& Volume;
 };
 
-double DistanceAt(
-  const Field& field, const std::array<double, 3>& point, double isoValue, double largest)
+double DistanceAt(const Field& field, const std::array<double, 3>& point, double isoValue)
 {
+  constexpr double largest = 10.0;
   double value;
   std::array<double, 3> gradient;
   field.Sample(point, value, gradient);
@@ -194,59 +185,32 @@ struct AirMap
 
 } // namespace
 
-IsoDistanceVerdict JudgeIsoDistance(
-  const TriangleSurface& surface, const JudgedVolume& volume, double largest)
+IsoDistanceVerdict JudgeIsoDistance(const TriangleSurface& surface, const JudgedVolume& volume)
 {
-  CheckSurface(surface);
-  CheckVolume(volume);
   const Field field(volume);
   IsoDistanceVerdict verdict;
-  std::vector<char> used(surface.Points.size(), 0);
-  double sum = 0.0;
-  for (const auto& t : surface.Triangles)
+  for (const auto& triangle : surface.Triangles)
   {
-    std::array<double, 3> centroid = { 0.0, 0.0, 0.0 };
-    for (const int v : t)
-    {
-      used[v] = 1;
-      for (int a = 0; a < 3; ++a)
-      {
-        centroid[a] += surface.Points[v][a] / 3.0;
-      }
-    }
-    sum += DistanceAt(field, centroid, volume.IsoValue, largest);
+    verdict.MeanAtCentroids += DistanceAt(field, CentroidOf(surface, triangle), volume.IsoValue);
   }
-  if (surface.Triangles.empty())
+  verdict.MeanAtCentroids /= surface.Triangles.size();
+  for (const auto& point : surface.Points)
   {
-    return verdict;
+    verdict.MeanAtVertices += DistanceAt(field, point, volume.IsoValue);
   }
-  verdict.MeanAtCentroids = sum / surface.Triangles.size();
-  std::vector<double> distances;
-  sum = 0.0;
-  for (std::size_t v = 0; v < surface.Points.size(); ++v)
-  {
-    if (used[v])
-    {
-      distances.push_back(DistanceAt(field, surface.Points[v], volume.IsoValue, largest));
-      sum += distances.back();
-    }
-  }
-  verdict.MeanAtVertices = sum / distances.size();
-  verdict.LargestAtVertices = *std::max_element(distances.begin(), distances.end());
-  verdict.Quantile99AtVertices = Quantile(distances, 0.99);
+  verdict.MeanAtVertices /= surface.Points.size();
   return verdict;
 }
 
-ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume)
+double ReachedShare(const TriangleSurface& surface, const JudgedVolume& volume)
 {
-  CheckSurface(surface);
-  CheckVolume(volume);
   AirMap map(volume);
   map.Flood(BallRadius);
   const std::vector<std::ptrdiff_t> faces = map.Ball(1.0);
   const std::vector<std::ptrdiff_t> touched = map.Ball(TouchedRadius);
   const PointGrid grid(surface.Points, FoundRadius);
-  ReachVerdict verdict;
+  double reachable = 0.0;
+  double found = 0.0;
   map.ForEachInner(
     [&](std::ptrdiff_t voxel, const std::array<double, 3>& point)
     {
@@ -256,20 +220,12 @@ ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volu
       {
         return;
       }
-      ++verdict.ReachableVoxels;
-      bool found = false;
-      grid.ForEachWithin(point, FoundRadius,
-        [&found](int)
-        {
-          found = true;
-          return false;
-        });
-      verdict.FoundVoxels += found;
+      bool isFound = false;
+      grid.ForEachWithin(point, FoundRadius, [&isFound](int) { isFound = true; });
+      reachable += 1.0;
+      found += isFound ? 1.0 : 0.0;
     });
-  verdict.Share = verdict.ReachableVoxels == 0
-    ? 1.0
-    : static_cast<double>(verdict.FoundVoxels) / verdict.ReachableVoxels;
-  return verdict;
+  return reachable > 0.0 ? found / reachable : 1.0;
 }
 
 } // namespace volumic::support

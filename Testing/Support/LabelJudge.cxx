@@ -8,7 +8,7 @@
 #include "SurfaceJudge.h"
 
 #include <algorithm>
-#include <stdexcept>
+#include <map>
 
 namespace volumic::support
 {
@@ -79,112 +79,56 @@ private:
 
 TruthVerdict JudgeTruth(const TriangleSurface& surface, const LabelShape& shape)
 {
-  CheckSurface(surface);
-  if (!shape.Distance)
-  {
-    throw std::invalid_argument("JudgeTruth: the shape has no distance");
-  }
   TruthVerdict verdict;
-  std::vector<char> used(surface.Points.size(), 0);
   double area = 0.0, volume = 0.0;
   for (const auto& triangle : surface.Triangles)
   {
-    Vector centroid = { 0.0, 0.0, 0.0 };
-    for (const int corner : triangle)
-    {
-      used[corner] = 1;
-      for (int a = 0; a < 3; ++a)
-      {
-        centroid[a] += surface.Points[corner][a] / 3.0;
-      }
-    }
     const Vector normal = NormalOf(surface, triangle);
-    const Foot foot(shape, centroid);
+    const Foot foot(shape, CentroidOf(surface, triangle));
     const double weight = Norm(normal);
     area += weight;
     volume += Dot(surface.Points[triangle[0]], normal) / 6.0;
     verdict.MeanAtCentroids += weight * foot.Distance;
     verdict.MeanAngle += weight * AngleBetween(normal, foot.Normal);
-    verdict.Largest = std::max(verdict.Largest, foot.Distance);
   }
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < surface.Points.size(); ++p)
+  for (const Vector& point : surface.Points)
   {
-    if (used[p])
-    {
-      const Foot foot(shape, surface.Points[p]);
-      verdict.MeanAtVertices += foot.Distance;
-      verdict.Largest = std::max(verdict.Largest, foot.Distance);
-      ++count;
-    }
+    verdict.MeanAtVertices += Foot(shape, point).Distance / surface.Points.size();
   }
-  if (count > 0 && area > 0.0)
-  {
-    verdict.MeanAtVertices /= static_cast<double>(count);
-    verdict.MeanAtCentroids /= area;
-    verdict.MeanAngle /= area;
-  }
+  verdict.MeanAtCentroids /= area;
+  verdict.MeanAngle /= area;
   verdict.VolumeError = volume / shape.Volume - 1.0;
   return verdict;
 }
 
-DihedralVerdict JudgeDihedrals(const TriangleSurface& surface)
+double DihedralQuantile(const TriangleSurface& surface)
 {
-  CheckSurface(surface);
-  struct Side
+  std::map<std::pair<int, int>, Vector> normals; // of the first triangle at each edge
+  std::vector<double> angles;
+  for (const auto& triangle : surface.Triangles)
   {
-    std::pair<int, int> Edge;
-    std::size_t Triangle;
-  };
-  std::vector<Side> sides;
-  sides.reserve(3 * surface.Triangles.size());
-  for (std::size_t t = 0; t < surface.Triangles.size(); ++t)
-  {
+    const Vector normal = NormalOf(surface, triangle);
     for (int c = 0; c < 3; ++c)
     {
-      sides.push_back(
-        { std::minmax({ surface.Triangles[t][c], surface.Triangles[t][(c + 1) % 3] }), t });
+      const auto added = normals.emplace(std::minmax(triangle[c], triangle[(c + 1) % 3]), normal);
+      if (!added.second)
+      {
+        angles.push_back(AngleBetween(added.first->second, normal));
+      }
     }
   }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& a, const Side& b)
-    { return a.Edge != b.Edge ? a.Edge < b.Edge : a.Triangle < b.Triangle; });
-  std::vector<double> angles;
-  for (std::size_t s = 0; s < sides.size();)
-  {
-    std::size_t end = s + 1;
-    while (end < sides.size() && sides[end].Edge == sides[s].Edge)
-    {
-      ++end;
-    }
-    if (end == s + 2)
-    {
-      const Vector a = NormalOf(surface, surface.Triangles[sides[s].Triangle]);
-      const Vector b = NormalOf(surface, surface.Triangles[sides[s + 1].Triangle]);
-      angles.push_back(AngleBetween(a, b));
-    }
-    s = end;
-  }
-  DihedralVerdict verdict;
-  if (!angles.empty())
-  {
-    verdict.Largest = *std::max_element(angles.begin(), angles.end());
-    verdict.Median = Quantile(angles, 0.5);
-    verdict.Quantile95 = Quantile(angles, 0.95);
-  }
-  return verdict;
+  return Quantile(angles, 0.95);
 }
 
 MisclassifiedVoxelVerdict JudgeVoxels(
   const TriangleSurface& surface, const LabelMap& map, int label)
 {
-  CheckSurface(surface);
   TriangleSurface inIndices = surface;
   for (Vector& point : inIndices.Points)
   {
     for (int a = 0; a < 3; ++a)
     {
-      point[a] = (point[a] - map.Origin[a]) / map.Spacing[a];
+      point[a] /= map.Spacing[a];
     }
   }
   const std::vector<char> enclosed = EnclosedVoxels(inIndices, map.Size);

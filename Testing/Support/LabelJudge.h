@@ -9,10 +9,7 @@
 
 #include <cstddef>
 
-/**
- * Accuracy, smoothness and misclassified voxels of label surfaces. All functions throw
- * std::invalid_argument as in SurfaceJudge.h.
- */
+/** Accuracy, smoothness and misclassified voxels of label surfaces. */
 namespace volumic::support
 {
 /** Distance to the digitised shape, in world units. Means of triangles are weighted by area. */
@@ -20,23 +17,14 @@ struct TruthVerdict
 {
   double MeanAtVertices = 0.0;
   double MeanAtCentroids = 0.0;
-  double Largest = 0.0;     ///< at vertices and centroids
   double MeanAngle = 0.0;   ///< between the normals of triangle and shape, degrees
   double VolumeError = 0.0; ///< relative; positive if the surface encloses more than the shape
 };
 
-/** Throw std::invalid_argument for a shape without Distance. */
 TruthVerdict JudgeTruth(const TriangleSurface& surface, const LabelShape& shape);
 
-/** Angles between the normals of the two triangles at an edge, degrees. */
-struct DihedralVerdict
-{
-  double Median = 0.0;
-  double Quantile95 = 0.0;
-  double Largest = 0.0;
-};
-
-DihedralVerdict JudgeDihedrals(const TriangleSurface& surface);
+/** Return the 95 % quantile of the angles between the two triangles at an edge, degrees. */
+double DihedralQuantile(const TriangleSurface& surface);
 
 /** Numbers of voxels whose centres are misclassified. */
 struct MisclassifiedVoxelVerdict

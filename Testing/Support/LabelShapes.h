@@ -7,18 +7,16 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 /** Label maps of analytic shapes. One world unit is the smallest voxel spacing. */
 namespace volumic::support
 {
-/** The centre of voxel (i, j, k) is at origin + spacing * (i, j, k). */
+/** The centre of voxel (i, j, k) is at spacing * (i, j, k). */
 struct LabelMap
 {
   std::array<int, 3> Size = { 0, 0, 0 };
   std::array<double, 3> Spacing = { 1.0, 1.0, 1.0 };
-  std::array<double, 3> Origin = { 0.0, 0.0, 0.0 };
   std::vector<std::int16_t> Values; ///< x fastest
 };
 
@@ -26,9 +24,9 @@ struct LabelMap
 struct LabelShape
 {
   int Label = 1;
-  /** Implicit function, world units, negative inside. Empty for shapes with sharp edges. */
+  /** Implicit function, world units, negative inside. */
   std::function<double(const std::array<double, 3>&)> Distance;
-  double Volume = 0.0; ///< world units cubed, within .02 %; 0 without Distance
+  double Volume = 0.0; ///< world units cubed, within .02 %; 0 for shapes with sharp edges
 };
 
 enum class LabelShapeKind
@@ -40,19 +38,14 @@ enum class LabelShapeKind
   CutBall        ///< labels 1 to 3: sectors of a ball; 4: a ball in their middle
 };
 
-/** Return the name of a kind, valid as test name. */
-std::string LabelShapeName(LabelShapeKind kind);
-
 struct DigitisedShapes
 {
-  std::string Name; ///< LabelShapeName
-  LabelMap Map;     ///< background: 0
+  LabelMap Map; ///< background: 0
   std::vector<LabelShape> Shapes;
 };
 
 /**
- * Digitise shapes at voxel centres. @param size voxels along x and y, at least 32 @param stretch
- * spacing along z, at least 1. Throw std::invalid_argument.
+ * Digitise shapes at voxel centres. @param size voxels along x and y @param stretch spacing along z
  */
 DigitisedShapes Digitise(LabelShapeKind kind, int size, double stretch = 1.0);
 

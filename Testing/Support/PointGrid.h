@@ -28,12 +28,11 @@ public:
     }
   }
 
-  /** Call visit(index) for each point within a radius, until it returns false. */
+  /** Call visit(index) for each point within a radius. */
   template <typename Visitor>
   void ForEachWithin(const std::array<double, 3>& centre, double radius, Visitor visit) const
   {
     const Cell middle = this->CellOf(centre);
-    bool shouldContinue = true;
     ForBox({ -1, -1, -1 }, { 2, 2, 2 },
       [&](int i, int j, int k)
       {
@@ -41,8 +40,10 @@ public:
         for (std::size_t n = 0; cell != this->Cells.end() && n < cell->second.size(); ++n)
         {
           const auto& p = this->Points[cell->second[n]];
-          const double distance = std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]);
-          shouldContinue = shouldContinue && (distance > radius || visit(cell->second[n]));
+          if (std::hypot(p[0] - centre[0], p[1] - centre[1], p[2] - centre[2]) <= radius)
+          {
+            visit(cell->second[n]);
+          }
         }
       });
   }

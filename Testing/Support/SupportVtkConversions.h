@@ -13,6 +13,8 @@
 #include <vtkDataArray.h>
 #include <vtkFieldData.h>
 #include <vtkFloatArray.h>
+#include <vtkImageCast.h>
+#include <vtkImageConstantPad.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
@@ -21,6 +23,7 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -51,14 +54,13 @@ inline vtkSmartPointer<vtkImageData> ToImage(const Scene& scene)
 /** Return an image with point scalars `Labels`. */
 inline vtkSmartPointer<vtkImageData> ToImage(const LabelMap& map)
 {
-  const auto image = ToImageOf<vtkShortArray>(map, "Labels");
-  image->SetOrigin(map.Origin.data());
-  return image;
+  return ToImageOf<vtkShortArray>(map, "Labels");
 }
 
 /**
  * Return the triangles of a surface. With an image, points are in its index coordinates, relative
- * to its extent. Throw std::invalid_argument if a polygon is not a triangle.
+ * to its extent. Throw std::invalid_argument if a polygon is not a triangle or a coordinate is not
+ * finite.
  */
 inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* image = nullptr)
 {
@@ -69,6 +71,10 @@ inline TriangleSurface ToTriangleSurface(vtkPolyData* polyData, vtkImageData* im
   {
     double* point = surface.Points[static_cast<std::size_t>(p)].data();
     polyData->GetPoint(p, point);
+    if (!std::isfinite(point[0] + point[1] + point[2]))
+    {
+      throw std::invalid_argument("ToTriangleSurface: a coordinate is not finite");
+    }
     if (image)
     {
       double index[3];
@@ -108,6 +114,34 @@ inline std::vector<double> DeltasOf(vtkPolyData* surface)
       sizes ? sizes->GetComponent(p, 0) / requestedInDelta : delta->GetComponent(0, 0));
   }
   return deltas;
+}
+
+/** Return the image with a border of one voxel that has its least value. */
+inline vtkSmartPointer<vtkImageData> Padded(vtkImageData* image)
+{
+  const int* extent = image->GetExtent();
+  vtkNew<vtkImageConstantPad> pad;
+  pad->SetInputData(image);
+  pad->SetConstant(image->GetScalarRange()[0]);
+  pad->SetOutputWholeExtent(
+    extent[0] - 1, extent[1] + 1, extent[2] - 1, extent[3] + 1, extent[4] - 1, extent[5] + 1);
+  pad->Update();
+  return pad->GetOutput();
+}
+
+/** Convert the voxels to float and return them for the judge. The image must outlive the volume. */
+inline JudgedVolume ToJudgedVolume(vtkImageData* image, double isoValue)
+{
+  vtkNew<vtkImageCast> cast;
+  cast->SetInputData(image);
+  cast->SetOutputScalarTypeToFloat();
+  cast->Update();
+  image->GetPointData()->SetScalars(cast->GetOutput()->GetPointData()->GetScalars());
+  JudgedVolume volume;
+  volume.Values = static_cast<const float*>(image->GetScalarPointer());
+  image->GetDimensions(volume.Size.data());
+  volume.IsoValue = isoValue;
+  return volume;
 }
 
 /** Return the volume of a scene for the judge. The scene must outlive it. */

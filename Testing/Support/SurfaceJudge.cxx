@@ -7,33 +7,9 @@
 
 #include <algorithm>
 #include <sstream>
-#include <stdexcept>
 
 namespace volumic::support
 {
-
-void CheckSurface(const TriangleSurface& surface)
-{
-  const int count = static_cast<int>(surface.Points.size());
-  for (const auto& p : surface.Points)
-  {
-    if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
-    {
-      throw std::invalid_argument("SurfaceJudge: a coordinate is not finite");
-    }
-  }
-  for (const auto& t : surface.Triangles)
-  {
-    for (const int v : t)
-    {
-      if (v < 0 || v >= count)
-      {
-        throw std::invalid_argument("SurfaceJudge: a triangle refers to point " +
-          std::to_string(v) + " of " + std::to_string(count));
-      }
-    }
-  }
-}
 
 std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface)
 {
@@ -63,21 +39,10 @@ double Quantile(std::vector<double>& values, double fraction)
   return values[rank];
 }
 
-SurfaceVerdict JudgeSurface(
-  const TriangleSurface& surface, double delta, const JudgedVolume* volume)
+SurfaceVerdict JudgeSurface(const TriangleSurface& surface, double delta)
 {
-  SurfaceVerdict verdict;
-  verdict.Topology = JudgeTopology(surface);
-  verdict.Intersections = JudgeIntersections(surface);
-  verdict.Lengths = JudgeLengths(surface, delta);
-  verdict.Shapes = JudgeShapes(surface);
-  verdict.HasVolume = volume != nullptr;
-  if (volume)
-  {
-    verdict.IsoDistance = JudgeIsoDistance(surface, *volume);
-    verdict.Reach = JudgeReach(surface, *volume);
-  }
-  return verdict;
+  return { JudgeTopology(surface), JudgeIntersections(surface), JudgeLengths(surface, delta),
+    JudgeShapes(surface) };
 }
 
 std::string Describe(const SurfaceVerdict& verdict)
@@ -100,16 +65,6 @@ std::string Describe(const SurfaceVerdict& verdict)
        << verdict.Lengths.NearPairs << "\n"
        << "radius ratio least " << verdict.Shapes.Least << ", 1 % quantile "
        << verdict.Shapes.Quantile01 << ", mean " << verdict.Shapes.Mean << "\n";
-  if (verdict.HasVolume)
-  {
-    text << "distance to the isosurface, voxels: at vertices mean "
-         << verdict.IsoDistance.MeanAtVertices << ", 99 % "
-         << verdict.IsoDistance.Quantile99AtVertices << ", largest "
-         << verdict.IsoDistance.LargestAtVertices << "; at centroids mean "
-         << verdict.IsoDistance.MeanAtCentroids << "\n"
-         << "reached " << verdict.Reach.FoundVoxels << " of " << verdict.Reach.ReachableVoxels
-         << " reachable boundary voxels (" << 100.0 * verdict.Reach.Share << " %)\n";
-  }
   return text.str();
 }
 

@@ -7,9 +7,6 @@
  * Lengths are in the units of the points. Functions with a volume expect points in index
  * coordinates: voxel (0, 0, 0) at the origin, lengths in voxels. Test constraints on lengths in the
  * computational space of the surface, which is not the world for anisotropic voxels.
- *
- * All functions throw std::invalid_argument for indices out of range and coordinates that are not
- * finite.
  */
 
 #ifndef volumicSurfaceJudge_h
@@ -23,14 +20,6 @@
 
 namespace volumic::support
 {
-
-/** Edge-connected component. */
-struct ComponentVerdict
-{
-  int EulerCharacteristic = 0;
-  double Area = 0.0;
-  double Volume = 0.0; ///< signed: negative for the boundary of a cavity
-};
 
 struct TopologyVerdict
 {
@@ -50,7 +39,8 @@ struct TopologyVerdict
   int Genus = -1; ///< sum of all components, -1 unless closed, manifold and oriented
   double Area = 0.0;
   double Volume = 0.0; ///< sum of the signed volumes
-  std::vector<ComponentVerdict> Components;
+  /** Signed volumes of the edge-connected components, negative for the boundary of a cavity. */
+  std::vector<double> Components;
 };
 
 /** Compute the topology with CGAL's polygon mesh processing. */
@@ -82,7 +72,7 @@ LengthVerdict JudgeLengths(const TriangleSurface& surface, double delta);
 
 /**
  * Test a graded surface with a delta for each point. An edge uses the mean delta of its vertices, a
- * pair the smaller delta. Throw std::invalid_argument unless each point has a delta.
+ * pair the smaller delta.
  */
 LengthVerdict JudgeLengths(const TriangleSurface& surface, const std::vector<double>& deltas);
 
@@ -110,47 +100,32 @@ struct IsoDistanceVerdict
 {
   double MeanAtVertices = 0.0;
   double MeanAtCentroids = 0.0;
-  double Quantile99AtVertices = 0.0;
-  double LargestAtVertices = 0.0;
 };
 
 /**
  * Compute the distance to the isosurface, |I - iso| / |grad I|, from trilinear interpolation of the
- * field and its central differences. Distances are clamped to `largest`, as the quotient is
- * meaningless in flat regions. Points in index coordinates, distances in the unit of Spacing.
+ * field and its central differences. Distances are clamped to 10, as the quotient is meaningless in
+ * flat regions. Points in index coordinates, distances in the unit of Spacing.
  */
-IsoDistanceVerdict JudgeIsoDistance(
-  const TriangleSurface& surface, const JudgedVolume& volume, double largest = 10.0);
+IsoDistanceVerdict JudgeIsoDistance(const TriangleSurface& surface, const JudgedVolume& volume);
 
-struct ReachVerdict
-{
-  /**
-   * Object voxels with a background 6-neighbour and within 2.5 voxels of the centre of a background
-   * ball of radius 1.5 voxels that is connected to the outside of the volume.
-   */
-  std::size_t ReachableVoxels = 0;
-  std::size_t FoundVoxels = 0; ///< reachable voxels within two voxels of a vertex
-  double Share = 0.0;          ///< ratio of found to reachable voxels; 1 if none is reachable
-};
+/**
+ * Return the share of the reachable voxels that lie within two voxels of a vertex, in index
+ * coordinates. Reachable are object voxels with a background 6-neighbour and within 2.5 voxels of
+ * the centre of a background ball of radius 1.5 voxels that is connected to the outside of the
+ * volume.
+ */
+double ReachedShare(const TriangleSurface& surface, const JudgedVolume& volume);
 
-/** Measure which part of the boundary the surface reaches. Points in index coordinates. */
-ReachVerdict JudgeReach(const TriangleSurface& surface, const JudgedVolume& volume);
-
-/** All results. Those of a volume have default values without one. */
 struct SurfaceVerdict
 {
   TopologyVerdict Topology;
   IntersectionVerdict Intersections;
   LengthVerdict Lengths;
   ShapeVerdict Shapes;
-  bool HasVolume = false;
-  IsoDistanceVerdict IsoDistance;
-  ReachVerdict Reach;
 };
 
-/** Judge a surface. Points, delta and volume in index coordinates; `volume` may be null. */
-SurfaceVerdict JudgeSurface(
-  const TriangleSurface& surface, double delta, const JudgedVolume* volume = nullptr);
+SurfaceVerdict JudgeSurface(const TriangleSurface& surface, double delta);
 
 /** Return a text with all results, for failing tests. */
 std::string Describe(const SurfaceVerdict& verdict);
