@@ -29,7 +29,7 @@ from command_test_case import ISO, META, SPACING, CommandTestCase, ball, nrrd_he
 from reading_test_case import ReadingTestCase
 from volumic import command, reading
 from volumic.arrays import surface
-from volumic.reading import VolumeError, points
+from volumic.reading import VolumeError, points, tables
 from volumic.reading.worker import in_worker
 
 import medical_files
@@ -173,6 +173,7 @@ class DamageTest(CommandTestCase):
         self.write_bytes("ball.mha", META + ball().tobytes())
         self.assertEqual(forked(lambda: collect(self.folder), self.path("log"))[:2], (0, ""))
         samples = json.loads(self.content("list"))
+        self.assertGreater(len(samples), 100)
         others = [self.content(path) for _, path, _ in samples if os.path.isfile(path)]
         for seed in range(int(os.environ.get("VOLUMIC_DAMAGES", "1")) * len(samples)):
             function, good, choice = samples[seed % len(samples)]
@@ -315,29 +316,24 @@ class WorkerTest(unittest.TestCase):
         return found
 
 
-class CommandTest(CommandTestCase):
-    def test_invalid_time_and_series(self):
-        for option, value in (("--time", 99), ("--phase", 1), ("--series", 9)):
-            with self.subTest(option):
-                self.rejects(f"ball.vti: there is no {'series' if value == 9 else 'time'} {value}",
-                             self.ball_file(), self.path("a.vtp"), option, value)
+class InputsTest(CommandTestCase):
+    def test_phase_is_a_synonym_of_time(self):
+        self.rejects("ball.vti: there is no time 1", self.ball_file(), self.path("a.vtp"), "--phase", 1)
 
     def test_pipes_are_rejected(self):
-        self.ball_file()
         for name in ("a.mha", "p.raw", "list.txt", "list.stl"):
             os.mkfifo(self.path(name))
         self.write_bytes("b.mhd", META.replace(b"LOCAL", b"p.raw"))
         self.write_bytes("b.nhdr", nrrd_header("gzip") + b"data file: p.raw\n")
-        for name in ("a.mha", "b.mhd", "b.nhdr"):
-            self.rejects("a pipe or a device", self.path(name), self.path("x.stl"))
-        for option, name in (("--seeds", "list.txt"), ("--attracting-points", "list.txt"),
-                             ("--initial-surface", "list.stl"), ("--edges", "a.mha"),
-                             ("--label-names", "list.txt")):
-            with self.subTest(option):
-                self.rejects(f"{name}.*: a pipe or a device", self.path("ball.vti"),
-                             self.path("x.stl"), option, self.path(name),
-                             *(["--labels", "all"] if option == "--label-names" else []))
-        self.rejects("a pipe or a device", "/dev/null", self.path("x.stl"))
+        for read, names in ((reading.read, ("a.mha", "b.mhd", "b.nhdr", "/dev/null")),
+                            (points.read_seeds, ("list.txt",)), (points.read_surface, ("list.stl",)),
+                            (points.read_attracting_points, ("list.txt",)),
+                            (tables.read_label_names, ("list.txt",))):
+            for name in names:
+                with self.assertRaisesRegex(VolumeError, f"{name}.*: a pipe or a device"):
+                    read(self.path(name))
+        self.rejects("a pipe or a device", self.ball_file(), self.path("x.stl"), "--edges",
+                     self.path("a.mha"))
 
     def test_insufficient_memory(self):
         file = self.write_bytes("large.mha", META.replace(b"26 22 18", b"1024 1024 1024"))

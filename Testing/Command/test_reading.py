@@ -72,6 +72,8 @@ class MetaImageTest(ReadingTestCase):
                 (b"-7.0", b"nan", "the origin nan x 8 x 9.5 is not finite"),
                 (b"-7.0", b"1e20", "the origin 1e[+]20 x 8 x 9.5 is too far away")):
             self.rejects("a.mha", reason, content.replace(old, new))
+        self.rejects("a.mha", "there is no time 99", content, time=99)
+        self.rejects("a.mha", "there is no series 9", series=9)
 
     def test_text(self):
         header = META.replace(b"BinaryData = True", b"BinaryData = False")
@@ -79,6 +81,13 @@ class MetaImageTest(ReadingTestCase):
         self.check(self.read("a.mha", header + text))
         self.rejects("a.mha", "it has 10297 values, its header requires 10296", header + b"5 " + text)
         self.rejects("a.mha", "damaged or invalid .*5x", header + b"5x " + text[2:])
+
+    def test_negative_spacing(self):
+        spacing = " ".join(map(str, SPACING)).encode()
+        volume = self.read("b.mha", META.replace(spacing, spacing.replace(b" 1", b" -1"))
+                           + ball().tobytes())
+        last = volume.origin + volume.direction @ (np.array(volume.spacing) * (SIZE - 1))
+        np.testing.assert_allclose(last, ORIGIN + SPACING * (SIZE - 1) * (1, 1, -1))
 
 
 class NrrdTest(ReadingTestCase):
@@ -216,6 +225,21 @@ class NiftiTest(ReadingTestCase):
                                       (108, struct.pack("<f", 1e8), "truncated")):
             self.rejects("b.nii", reason, content[:offset] + value + content[offset + len(value):])
 
+    def test_misleading_headers(self):
+        nan = float("nan")
+        signs = bytearray(medical_files.nifti(ball(), SPACING * (1, -1, 1), offset=ORIGIN))
+        struct.pack_into("<h", signs, 252, 0)
+        unit = bytearray(medical_files.nifti(ball(), SPACING, offset=ORIGIN))
+        unit[123] = 3
+        for content, warning in (
+                (signs, r"corrected header: pixdim\[1,2,3\] should be positive"),
+                (unit, "the unit is um, not mm; outputs and options use it unless --unit gives another"),
+                (medical_files.nifti(ball(), SPACING, slope=nan, intercept=nan), "^$")):
+            volume = self.read("a.nii", content)
+            self.assertRegex(" ".join(volume.warnings), warning)
+            np.testing.assert_array_equal(volume.array, ball())
+            np.testing.assert_allclose(volume.spacing, SPACING)
+
 
 class OtherFormatsTest(ReadingTestCase):
     def test_mgh(self):
@@ -283,29 +307,3 @@ class OtherFormatsTest(ReadingTestCase):
             ball(), SPACING)))
         self.rejects("a.xyz", "unknown format", b"?")
         self.rejects("missing.vti", "no such file or folder")
-
-
-class HeadersTest(ReadingTestCase):
-    """Contradictory or misleading headers."""
-
-    def test_negative_spacing(self):
-        spacing = " ".join(map(str, SPACING)).encode()
-        volume = self.read("b.mha", META.replace(spacing, spacing.replace(b" 1", b" -1"))
-                           + ball().tobytes())
-        last = volume.origin + volume.direction @ (np.array(volume.spacing) * (SIZE - 1))
-        np.testing.assert_allclose(last, ORIGIN + SPACING * (SIZE - 1) * (1, 1, -1))
-
-    def test_nifti(self):
-        nan = float("nan")
-        signs = bytearray(medical_files.nifti(ball(), SPACING * (1, -1, 1), offset=ORIGIN))
-        struct.pack_into("<h", signs, 252, 0)
-        unit = bytearray(medical_files.nifti(ball(), SPACING, offset=ORIGIN))
-        unit[123] = 3
-        for content, warning in (
-                (signs, r"corrected header: pixdim\[1,2,3\] should be positive"),
-                (unit, "the unit is um, not mm; outputs and options use it unless --unit gives another"),
-                (medical_files.nifti(ball(), SPACING, slope=nan, intercept=nan), "^$")):
-            volume = self.read("a.nii", content)
-            self.assertRegex(" ".join(volume.warnings), warning)
-            np.testing.assert_array_equal(volume.array, ball())
-            np.testing.assert_allclose(volume.spacing, SPACING)

@@ -139,7 +139,7 @@ def _all_series(files):
             for key, each in slices.items():
                 series.slices.setdefault(key, each)
     if not found:
-        raise VolumeError("no DICOM image found")
+        raise VolumeError("no DICOM image found; give a file or folder of images")
     return list(found.values())
 
 

@@ -25,8 +25,8 @@ _MODES = {0: "i1", 1: "i2", 2: "f4", 3: "(2,)i2", 4: "c8", 6: "u2", 12: "f2", 16
 
 
 def read_mrc(path, choice):
-    """Read MRC2014, also compressed. mrcfile ignores the axis order and the cell angles, and its
-    readers allocate the extended header, of a size up to 2 GiB in a damaged file."""
+    """Read MRC2014, also compressed. Readers of mrcfile ignore the axis order and the cell angles,
+    and allocate up to 2 GiB for a damaged header."""
     from mrcfile.dtypes import HEADER_DTYPE
     with open(path, "rb") as stream:
         compression = {b"\x1f\x8b": "gzip", b"BZ": "bz2"}.get(stream.read(2))
@@ -58,7 +58,7 @@ def read_mrc(path, choice):
     array = voxels(path, 0, dtype, np.prod(sizes, dtype=object), compression,
                    1024 + extended, exact=True).reshape(*sizes, *dtype.shape)
     array = np.moveaxis(array, -1, 0) if dtype.shape else array
-    if header["ispg"] >= 401 and sizes[0] > cells[2] and sizes[0] % cells[2] == 0:  # several volumes
+    if header["ispg"] >= 401 and sizes[0] > cells[2] and sizes[0] % cells[2] == 0:  # volumes
         array = array.reshape(-1, cells[2], *sizes[1:])[one_of_times(sizes[0] // cells[2], choice)]
     axes = np.array([[1, cg, cb], [0, sine, y], [0, 0, np.sqrt(1 - cb * cb - y * y)]])
     steps = axes * (np.array(header["cella"].tolist()) / cells)  # columns: along x, y and z
@@ -236,7 +236,7 @@ def read_pictures(path, choice):
     forms = collections.Counter(form.values()).most_common() or [("", 0)]
     kept = [name for name in form if form[name] == forms[0][0] or forms[0][1] == 1]
     if 4 * len(kept) < 3 * len(form) or not form:
-        raise VolumeError("no pictures and no DICOM slices found" if not form else
+        raise VolumeError("no pictures or DICOM slices found; give their folder" if not form else
                           "pictures with several name patterns: %s; choose one with a pattern such "
                           "as '%s'" % (", ".join("%s (%d)" % each for each in forms[:3]),
                                        forms[-1][0].replace("#", "*")))

@@ -158,7 +158,8 @@ def prefix_errors(path):
         yield
     except Exception as error:  # pylint: disable=broad-except
         text = one_line(str(failure_of(error)))
-        text += "" if re.search(r"; [a-z]|\binstall ", text) else "; copy the file again, correct it or convert it"
+        if not re.search(r"; [a-z]|\binstall ", text):
+            text += "; copy the file again, correct it or convert it"
         raise VolumeError(text if text.startswith((path + ":", path + os.sep)) else
                           "%s: %s" % (path, text)) from None
 

@@ -209,7 +209,6 @@ def updated(reader, path):
               re.split("(?m)^(?=ERROR|Warning|Generic)", window.GetOutput())
               if text[:7] in ("ERROR: ", "Generic") and "InformationKey" not in text]  # NaN ranges
     if errors or output is None or not output.GetNumberOfPoints():
-        reason = next((text for text in errors if not re.search(
-            "returned failure for request|did not create output", text)), "no data")
-        raise VolumeError("VTK cannot read the file: " + reason[-200:])
+        reasons = [e for e in errors if not re.search("returned failure|did not create output", e)]
+        raise VolumeError("VTK cannot read the file: " + (reasons or ["no data"])[0][-200:])
     return output
