@@ -20,8 +20,8 @@ from . import messages
 from . import vtkFiltersVolumic as filters
 from .errors import VolumeError
 from .reading.volume import Volume, check_positions
-from .writing.files import replace_file, temporary_path
-from .writing.surfaces import FORMATS, write_vtm
+from .writing.files import output_file, output_folder, replace_file
+from .writing.surfaces import FORMATS, file_header, write_pieces, write_vtm
 
 
 class FilterError(RuntimeError):
@@ -75,7 +75,7 @@ class Surface:
         """Return the content of a file with this suffix, see save()."""
         if suffix not in FORMATS:
             raise ValueError(f"'{suffix}' is not a surface format; use one of {', '.join(FORMATS)}")
-        return b"".join(FORMATS[suffix](self._polydata, "volumic"))
+        return b"".join(FORMATS[suffix](self._polydata, file_header(self._polydata)))
 
 
 class Surfaces(dict[int, Surface]):
@@ -98,12 +98,12 @@ class Surfaces(dict[int, Surface]):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write a .vtm file, or one file `label-3.vtp` per label to a folder, which is created."""
         if os.path.splitext(path)[1].lower() == ".vtm":
-            with temporary_path(path) as written:
+            with output_file(path) as written:
                 write_vtm(self._blocks, written)
             return
-        os.makedirs(path, exist_ok=True)
-        for label, surface in self.items():
-            surface.save(os.path.join(path, f"label-{label}.vtp"))
+        with output_folder(path) as folder:
+            for label, surface in self.items():
+                write_pieces(os.path.join(folder, f"label-{label}.vtp"), [surface.to_bytes(".vtp")])
 
 
 def _serialized(data: Any) -> bytes:
@@ -183,7 +183,7 @@ def surface(array: Any, iso: float | None = None, *, spacing: Sequence[float] | 
     if iso is not None:
         algorithm.SetIsoValue(iso)
     notes += _run(algorithm)
-    return Surface(algorithm.GetOutput(), _warn(notes))
+    return Surface(_marked(algorithm.GetOutput(), array), _warn(notes))
 
 
 def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | None = None,
@@ -221,7 +221,7 @@ def labels(array: Any, only: Sequence[int] = (), *, spacing: Sequence[float] | N
         algorithm.AddLabel(int(label))
     algorithm.SetInputData(_input(array, spacing, origin, direction, start))
     notes = _run(algorithm)
-    return Surfaces(algorithm.GetOutput(), _warn(notes))
+    return Surfaces(_marked(algorithm.GetOutput(), array), _warn(notes))
 
 
 def label_boxes(array: Any, start: Sequence[int] = (0, 0, 0)) -> dict[int, list[int]]:
@@ -312,6 +312,14 @@ def _input(array: Any, spacing: Any, origin: Any, direction: Any, start: Any) ->
         raise ValueError(str(error)) from None
     return make_image(volume.scalars(), volume.spacing, volume.origin, volume.direction,
                       volume.start, volume.name or "Voxels")
+
+
+def _marked(data: Any, array: Any) -> Any:
+    """Set the coordinate system and the unit of surfaces if `array` is a Volume."""
+    from .geometry import mark_space
+    if isinstance(array, Volume):
+        mark_space(data, array)
+    return data
 
 
 def _run(algorithm: Any) -> list[str]:

@@ -21,10 +21,10 @@ DONE, FAILED, WRONG_USAGE = 0, 1, 2
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command with `arguments` (default: those of the process). Return the exit code."""
     arguments = sys.argv[1:] if arguments is None else arguments
-    _complete()
-    messages.catch_signals()
     console, code = Console(), FAILED
     try:
+        messages.catch_signals()
+        _complete()
         options = command_line.parse(arguments)
         console = Console(options.quiet, options.progress)
         code = _run(options, console)
@@ -37,7 +37,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         text = command_line.with_file_name(str(error), options)
         console.error("\nvolumic: ".join(map(one_line, text.splitlines())))
     except KeyboardInterrupt:
-        console.error("interrupted before a surface was computed; no file was written")
+        console.error("interrupted before a surface was computed; no surface was written")
     except MemoryError:
         console.error(f"{arguments[-1] if arguments else ''}: not enough memory; crop the volume "
                       "or resample it to fewer voxels")

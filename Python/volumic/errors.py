@@ -16,5 +16,9 @@ class VolumeError(Failure):
     """A volume, or a file that belongs to it, cannot be read."""
 
 
+class OutputError(Failure, OSError):
+    """A file cannot be written. The message names it."""
+
+
 class Interrupted(Failure):
     """Ctrl-C, SIGTERM or the time limit stopped the run before it had a result."""

@@ -48,7 +48,7 @@ def field_text(data: Any, name: str) -> str:
     return array.GetValue(0) if array and array.GetNumberOfValues() > 0 else ""
 
 
-def mark_space(data: Any, world: World) -> None:
+def mark_space(data: Any, world: World | Volume) -> None:
     """Set the field data `SPACE`, read by 3D Slicer, and `LengthUnit` of a surface or blocks."""
     if data.IsA("vtkMultiBlockDataSet"):
         for block in filter(None, map(data.GetBlock, range(data.GetNumberOfBlocks()))):

@@ -8,6 +8,7 @@ import json
 import math
 import os
 import resource
+from argparse import Namespace
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -134,18 +135,24 @@ def finish(report: dict[str, Any], warnings: Sequence[str]) -> str:
     return json.dumps(report, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def describe_print(printed: bool, surfaces: Sequence[Any], unit: str) -> str:
-    """Return a line with the size of a 3D print and its minimum thickness if computed
-    (--thin-parts); empty unless `printed`."""
+def describe_print(options: Namespace, surfaces: Sequence[Any], unit: str) -> str:
+    """Return a line with the size of a 3D print and, with --thin-parts, its minimum thickness; empty
+    without .3mf. Where no thickness can be measured, the array has its minimum, delta / 2."""
     surfaces = [surface for surface in surfaces if surface.GetNumberOfPoints() > 0]
-    if not printed or not surfaces:
+    names = [*options.surfaces, "." + (options.format or "")]
+    if not surfaces or not any(name.lower().endswith(".3mf") for name in names):
         return ""
     bounds = np.array([surface.GetBounds() for surface in surfaces])
     lengths = bounds[:, 1::2].max(axis=0) - bounds[:, ::2].min(axis=0)
-    walls = [surface.GetPointData().GetArray("Thickness") for surface in surfaces]
-    walls = [wall.GetRange()[0] for wall in walls if wall is not None]
-    return ("size of the print: " + " x ".join(f"{length:.4g}" for length in lengths)
-            + f" {unit or 'mm'}" + (f"; minimum wall thickness {min(walls):.4g}" if walls else ""))
+    line = f"size of the print: {' x '.join(f'{length:.4g}' for length in lengths)} {unit or 'mm'}"
+    for surface in surfaces:
+        thickness, delta = surface.GetPointData().GetArray("Thickness"), values_of(surface, "Delta")
+        if thickness is not None:
+            in_delta = vtk_to_numpy(thickness) / delta[0, 0]
+            least = in_delta[in_delta > 0.501].min(initial=8)
+            line += (f"; minimum thickness of walls and gaps {'at least ' * (least > 7.99)}"
+                     f"{least * delta[0, 0]:.4g}")
+    return line
 
 
 def volume_report(volume_name: str, loaded: LoadedVolume, filters: Filters, surface: Any,

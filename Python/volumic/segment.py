@@ -4,15 +4,15 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import time
 from argparse import Namespace
-from collections.abc import Sequence
 from typing import Any
 
 from . import geometry, messages, report, writing
 from . import vtkFiltersVolumic as vtk
-from .errors import Failure, Interrupted
+from .errors import Failure, Interrupted, UsageError
 from .label_map import name_labels
 from .messages import Run, Console, number_text
 from .option_tables import Filters
@@ -23,10 +23,8 @@ from .writing import files
 from .writing.tetrahedra import TetrahedralMesher, find_mesher
 
 DONE, UNFINISHED = 0, 3  # exit codes
-NO_RESULT = "a surface was computed; no file was written"
+NO_RESULT = "a surface was computed; no surface was written"
 
-
-# ---- Files -------------------------------------------------------------------------------------
 
 def inputs_of(options: Namespace) -> list[str]:
     paths = list_files(options.volume, options.choice)
@@ -52,14 +50,12 @@ def other_outputs(options: Namespace) -> list[files.OutputName]:
 
 def check_files(options: Namespace, outputs: list[files.OutputName]) -> None:
     """Check inputs, outputs and meshers before the run. Raise Failure or UsageError."""
-    if options.write_volume:
-        writing.check_volume_name(options.write_volume)
+    if options.write_volume and not options.write_volume.lower().endswith(".vti"):
+        raise UsageError(f"{options.write_volume}: volumes are written as .vti; change the suffix")
     files.check_outputs(outputs + other_outputs(options), inputs_of(options))
     if writes_tetrahedra(options):
         find_mesher(options.mesher)
 
-
-# ---- Before the run ----------------------------------------------------------------------------
 
 def set_initial_data(options: Namespace, surface: Any) -> None:
     """Pass seeds, initial surface and attracting points to the filter."""
@@ -113,8 +109,6 @@ def set_otsu_threshold(loaded: geometry.LoadedVolume, surface: Any, console: Con
                  + (f" without padding voxels of value {number_text(minimum)}" if padding else "")
                  + "; set another value with --iso")
 
-
-# ---- The run -----------------------------------------------------------------------------------
 
 class Segmentation:
     """One run of the filters on a volume."""
@@ -202,8 +196,6 @@ class Segmentation:
         return Run(seconds, last.warnings, last.interrupted)
 
 
-# ---- The end of the run ------------------------------------------------------------------------
-
 def write_outputs(run: Segmentation, surface: Any, is_finished: bool, mesher: TetrahedralMesher,
                   reader_memory: float) -> None:
     """Write all outputs. Raise Failure with one line per file that cannot be written."""
@@ -252,8 +244,12 @@ def segment_volume(options: Namespace, filters: Filters, console: Console) -> in
     surface = filters.surface
     component = surface.GetSelectedComponent()
     if options.write_volume:
-        image = geometry.image_of(loaded.volume, loaded.volume.array) \
-            if loaded.component is not None and component == -1 else loaded.image
+        if loaded.component is not None and component == -1:
+            whole = dataclasses.replace(loaded.volume)
+            geometry.resample(whole, options, Console(quiet=True))
+            image = geometry.image_of(whole, whole.array)
+        else:
+            image = loaded.image
         name_labels(options, loaded.volume, image, console)
         writing.write_volume(image, options.write_volume)
     if not needs_surface(options):
@@ -300,18 +296,12 @@ def make_mesher(options: Namespace, filters: Filters, probes: geometry.Probes,
                              messages.was_interrupted, deadline, probes if probes else None)
 
 
-def is_for_printing(options: Namespace, names: Sequence[str]) -> bool:
-    return any(name.lower().endswith(".3mf") for name in names) \
-        or (options.format or "").lower() in ("3mf", ".3mf")
-
-
 def _print_summary(run: Segmentation, surface: Any, mesher: TetrahedralMesher, reason: str,
                    is_finished: bool) -> None:
     console = run.console
     iterations = run.filters.surface.GetHistory().GetNumberOfRows()
     console.info(f"{surface.GetNumberOfPoints()} vertices after {iterations} iterations: {reason}")
-    console.info(report.describe_print(is_for_printing(run.options, run.options.surfaces),
-                                       [surface], run.loaded.world.unit))
+    console.info(report.describe_print(run.options, [surface], run.loaded.world.unit))
     console.info(report.describe_tetrahedra(mesher.last))
     if not is_finished:
         console.error(f"unfinished ({reason}): the current surface was written")

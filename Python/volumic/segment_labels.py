@@ -24,8 +24,7 @@ from .option_tables import Filters, applies_to_labels
 from .options import has_property, with_option_names, needs_surface
 from .reading.volume import Label
 from .segment import (
-    DONE, NO_RESULT, UNFINISHED, check_files, inputs_of, is_for_printing, make_mesher,
-    other_outputs)
+    DONE, NO_RESULT, UNFINISHED, check_files, inputs_of, make_mesher, other_outputs)
 from .triangles import find_triangles
 from .writing import files
 
@@ -343,8 +342,7 @@ class LabelRun:
         if self.unfinished:
             self.console.error(f"unfinished ({self.unfinished}): the current surfaces were written")
         self.console.info(report.describe_print(
-            is_for_printing(self.options, self.options.surfaces), [each.surface for each in there],
-            self.loaded.world.unit))
+            self.options, [each.surface for each in there], self.loaded.world.unit))
         self.console.info(report.describe_tetrahedra(self.tetrahedra))
 
 

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import csv
 import functools
+import glob
 import io
 import itertools
 import json
@@ -30,7 +31,6 @@ import os
 import shutil
 import warnings
 from collections.abc import Callable, Iterable, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -276,8 +276,9 @@ class Job:
         for folder in self._viewers():
             replace_file(os.path.join(folder, "info"),
                          _json(neuroglancer.INFO[os.path.basename(folder)]))
-        for left in list(Path(self.folder).rglob(HIDDEN + "*")):
-            shutil.rmtree(left)
+        for left in glob.glob(os.path.join(glob.escape(self.folder), "**", HIDDEN + "*"),
+                              recursive=True):
+            shutil.rmtree(left, ignore_errors=True)
         return rows
 
     # ---- Crops ---------------------------------------------------------------------------------

@@ -200,20 +200,20 @@ class NiftiTest(ReadingTestCase):
 
     def test_masks_of_a_folder(self):
         os.mkdir(self.path("a"))
-        organ, part = ball() > 300, ball() > 700
-        for name, mask in (("organ", organ), ("part", part), ("none", part * 0)):
+        organ, part, core = (ball() > value for value in (300, 700, 800))
+        for name, mask in (("organ", organ), ("part", part), ("none", part * 0), ("core", core)):
             self.write_bytes(f"a/{name}.nii", medical_files.nifti(mask.astype("i2"), SPACING))
         volume = self.read("a", labels=True)
-        np.testing.assert_array_equal(volume.array, np.where(part, 3, organ * 2))
-        self.assertEqual(volume.names, {1: "none", 2: "organ", 3: "part"})
+        np.testing.assert_array_equal(volume.array, np.where(core, 1, np.where(part, 4, organ * 3)))
+        self.assertEqual(volume.names, {1: "core", 2: "none", 3: "organ", 4: "part"})
         self.assertRegex(" ".join(volume.warnings), f"{part.sum()} overlapping voxels "
-                         ".organ and part.*empty masks: none")
+                         ".core and organ .*, organ and part.*empty masks: none")
         volume = self.read("a", labels=True, layers=True)
-        np.testing.assert_array_equal(volume.array, [organ * 2, part * 3])
+        np.testing.assert_array_equal(volume.array, [core * 1, organ * 3, part * 4])
         self.assertEqual([(label.value, label.layer) for label in volume.labels],
-                         [(1, 0), (2, 0), (3, 1)])
+                         [(1, 0), (2, 0), (3, 1), (4, 2)])
         self.write_bytes("a/other.nii", medical_files.nifti(organ[1:].astype("i2"), SPACING))
-        self.rejects("a", "other.nii: the grid differs from that of none.nii", labels=True)
+        self.rejects("a", "other.nii: the grid differs from that of core.nii", labels=True)
         self.write_bytes("a/other.nii", medical_files.nifti(ball(), SPACING))
         self.rejects("a", "other.nii: has the values .* but a mask has 0 and one other", labels=True)
 

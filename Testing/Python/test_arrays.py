@@ -64,11 +64,13 @@ class SurfaceTest(unittest.TestCase):
         self.assertEqual(points.tobytes(), self.ring.points.tobytes())
 
     def test_volume_defines_its_position(self):
-        volume = Volume(ring_voxels(), RING_SPACING, (10, 20, 30), unit="mm")
-        self.assertEqual(volumic.surface(volume, 125.5).points.tobytes(), self.ring.points.tobytes())
+        volume = Volume(ring_voxels(), RING_SPACING, (10, 20, 30), space="RAS", unit="mm")
+        surface = volumic.surface(volume, 125.5)
+        self.assertEqual(surface.points.tobytes(), self.ring.points.tobytes())
+        self.assertIn(b", SPACE=RAS, unit mm  ", surface.to_bytes(".stl"))
         array, spacing, origin, direction, space, unit, names = volume
         self.assertEqual((array.shape, spacing, unit, space, names),
-                         (ring_voxels().shape, tuple(RING_SPACING), "mm", "", {}))
+                         (ring_voxels().shape, tuple(RING_SPACING), "mm", "RAS", {}))
         self.assertEqual((origin, direction.tolist()), ((10, 20, 30), np.eye(3).tolist()))
         with self.assertRaisesRegex(TypeError, "remove spacing"):
             volumic.surface(volume, 125.5, spacing=(1, 1, 1))
@@ -186,9 +188,15 @@ class FilesTest(FolderTestCase):
         with self.assertRaisesRegex(ValueError, "'.off' is not a surface format; use one of .vtp"):
             self.ball.save(self.path("ball.off"))
 
+    def test_failed_write_keeps_existing_file(self):
+        path, balls = self.write_text("ball.vtp", "former"), volumic.labels(two_balls())
+        for save, name in ((self.ball.save, path), (balls.save, "l.vtm"), (balls.save, "l")):
+            with unittest.mock.patch("os.replace", side_effect=OSError("no")):
+                with self.assertRaisesRegex(OSError, f"{name}: cannot be written .no.$"):
+                    save(self.path(name))
+        self.assertEqual((self.content(path), os.listdir(self.folder)), (b"former", ["ball.vtp"]))
+
     def test_save_all_labels(self):
-        balls = volumic.labels(two_balls())
-        balls.save(self.path("balls"))
-        self.assertEqual(sorted(os.listdir(self.path("balls"))), ["label-3.vtp", "label-7.vtp"])
-        balls.save(self.path("balls.vtm"))
-        self.assertTrue(os.path.exists(self.path("balls.vtm")))
+        for name in ("balls", "balls.vtm"):
+            volumic.labels(two_balls()).save(self.path(name))
+        self.assertIn("label-7.vtp", os.listdir(self.path("balls")))

@@ -45,7 +45,7 @@ def _merged(masks, choice):
     """Return the label map of masks, each a location, a name and a function that reads it. Where
     masks overlap, the smaller one has the voxel; with choice.layers, overlapping masks are in
     different components of the array."""
-    whole, layers, counts, names, shared = None, [], [0], [""], {}
+    whole, layers, counts, names, shared, several = None, [], [0], [""], {}, 0
     for number, (location, name, load) in enumerate(masks, 1):
         with prefix_errors(location):
             mask = load()
@@ -69,13 +69,14 @@ def _merged(masks, choice):
                 layers.append(np.zeros_like(layers[0]))
         else:
             others = layers[0][inside]
+            several |= inside & (layers[0] > 0)
             for other, voxels in zip(*np.unique(others[others > 0], return_counts=True)):
                 shared[int(other), number] = int(voxels)
             inside[inside] = (others == 0) | (np.array(counts)[others] > counts[number])
         layers[at][inside] = number
         if name or choice.layers:
             whole.labels.append(Label(number, name, layer=at))
-    whole.warnings += _warnings(shared, counts, names)
+    whole.warnings += _warnings(shared, np.count_nonzero(several), counts, names)
     dtype = np.uint8 if len(counts) <= 256 else np.uint16
     whole.array = np.stack(layers).astype(dtype) if len(layers) > 1 else layers[0].astype(dtype)
     return whole
@@ -106,13 +107,13 @@ def _inside(values):
     return inside
 
 
-def _warnings(shared, counts, names):
+def _warnings(shared, several, counts, names):
     """Return warnings about masks that overlap or are empty."""
     warnings = []
     if shared:
         pairs = ["%s and %s %d" % (names[a], names[b], n) for (a, b), n in sorted(shared.items())]
         warnings.append("%d overlapping voxels (%s) are assigned to the smaller mask; give a "
                         "folder (OUT/) for complete masks"
-                        % (sum(shared.values()), ", ".join(pairs[:5]) + ", ..." * (len(pairs) > 5)))
+                        % (several, ", ".join(pairs[:5]) + ", ..." * (len(pairs) > 5)))
     empty = [name for name, count in zip(names[1:], counts[1:]) if not count]
     return warnings + ["empty masks: " + ", ".join(empty)] * bool(empty)

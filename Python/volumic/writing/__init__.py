@@ -40,11 +40,6 @@ def check_surface_name(name: str) -> None:
                          f"{' '.join(SUFFIXES)}")
 
 
-def check_volume_name(name: str) -> None:
-    if suffix_of(name) != ".vti":
-        raise UsageError(f"{name}: volumes are written as .vti; change the suffix")
-
-
 def is_scene(name: str) -> bool:
     """Return whether a format stores several surfaces with names and colours."""
     return suffix_of(name) in SCENES
@@ -61,17 +56,12 @@ def write_surface(surface: Any, name: str, remark: str = "",
                   progress: Show = silent) -> None:
     """Write a surface, interfaces of labels, or a tetrahedral mesh of them by `mesher`. The file
     header states version, coordinate system, unit and `remark`."""
-    from .. import __version__
-    from ..geometry import field_text
     if is_scene(name):
         labels = surface_labels(surface)
         write_scene([(labels[0].name if len(labels) == 1 else "surface", surface)], name, warn,
                     progress)
         return
-    space, unit = field_text(surface, "SPACE"), field_text(surface, "LengthUnit")
-    head = (f"volumic {__version__}" + f", SPACE={space}" * bool(space)
-            + f", unit {unit}" * bool(unit) + remark)
-    mesher = mesher or TetrahedralMesher()
+    head, mesher = surfaces.file_header(surface, remark), mesher or TetrahedralMesher()
     _warn_unsupported([surface], name, warn)
     with files.output_file(name) as path:
         if suffix_of(name) in surfaces.FORMATS:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Atomic writing of files.
+"""Atomic writing of files. All functions raise OutputError, which names the file.
 
     with output_file("surface.stl") as path:     # in a hidden folder next to it
         write(path)
@@ -12,6 +12,7 @@ folder .volumic-XXXXXX remains.
 from __future__ import annotations
 
 import contextlib
+import errno
 import fnmatch
 import glob
 import os
@@ -23,7 +24,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from ..errors import Failure
+from ..errors import Failure, OutputError
 
 HIDDEN = ".volumic-"  # prefix of the hidden folders
 
@@ -45,33 +46,26 @@ class Failures(list[str]):
             raise Failure("\n".join(self))
 
 
-# ---- Writing -----------------------------------------------------------------------------------
-
 @contextlib.contextmanager
-def output_file(name: str) -> Iterator[str]:
-    """Return the path to write a file to. Raise Failure, which names the file, if it cannot be
-    written. The name is prepended to a Failure of the block."""
-    with _prefix_errors(name), temporary_path(name) as path:
-        yield path
-
-
-@contextlib.contextmanager
-def output_folder(folder: str) -> Iterator[str]:
-    """Return a folder whose files are moved to `folder` at the end. Raise Failure."""
+def output_folder(folder: str | os.PathLike[str]) -> Iterator[str]:
+    """Return a folder whose files are moved to `folder` at the end."""
     with created_folder(folder), _prefix_errors(folder), _hidden_folder(folder) as hidden:
         yield hidden
         _publish(hidden, folder)
 
 
 @contextlib.contextmanager
-def temporary_path(name: str | os.PathLike[str]) -> Iterator[str]:
-    """Like output_file(), but raises OSError. Links are followed. Devices and pipes get the
-    complete file at the end. Files in a subfolder next to the path are moved, too."""
+def output_file(name: str | os.PathLike[str]) -> Iterator[str]:
+    """Return the path to write a file to. The name is prepended to a Failure of the block. Links
+    are followed. Devices and pipes get the complete file at the end. Files in a subfolder next to
+    the path are moved, too."""
     stream = is_stream(name)
     folder, base = os.path.split(name if stream else os.path.realpath(name))
-    with _hidden_folder(tempfile.gettempdir() if stream else folder) as hidden:
+    with _prefix_errors(name), \
+            _hidden_folder(tempfile.gettempdir() if stream else folder) as hidden:
         path = os.path.join(hidden, base)
         yield path
+        os.stat(path)  # another process may have removed it
         if not stream:
             _publish(hidden, folder)
         else:
@@ -80,27 +74,32 @@ def temporary_path(name: str | os.PathLike[str]) -> Iterator[str]:
 
 
 def replace_file(name: str | os.PathLike[str], content: bytes) -> None:
-    """Write a file. Raise OSError if it cannot be written."""
-    with temporary_path(name) as path:
-        Path(path).write_bytes(content)
+    """Write a file. Try again if tasks.Job.finish() of another process removed the hidden folder."""
+    for is_last in (False, True):
+        try:
+            with output_file(name) as path:
+                Path(path).write_bytes(content)
+            return
+        except OutputError as error:
+            if is_last or error.errno != errno.ENOENT:
+                raise
 
 
 def write_text(text: str, name: str) -> None:
     """Write a text; `-` is the standard output. Bytes of file names that are not UTF-8 become the
     replacement character."""
     content = text.encode("utf-8", "surrogateescape").decode("utf-8", "replace").encode()
-    with _prefix_errors("the standard output" if name == "-" else name):
-        if name != "-":
-            replace_file(name, content)
-        else:
-            sys.stdout.buffer.write(content)
-            sys.stdout.flush()
+    if name != "-":
+        replace_file(name, content)
+        return
+    with _prefix_errors("the standard output"):
+        sys.stdout.buffer.write(content)
+        sys.stdout.flush()
 
 
 @contextlib.contextmanager
-def created_folder(name: str) -> Iterator[None]:
-    """Create a folder and its parents. At the end, remove those created here that are empty. Raise
-    Failure, which names the folder."""
+def created_folder(name: str | os.PathLike[str]) -> Iterator[None]:
+    """Create a folder and its parents. At the end, remove those created here that are empty."""
     created = [path for path in _with_parents(name) if not os.path.lexists(path)]
     try:
         with _prefix_errors(name):
@@ -112,14 +111,15 @@ def created_folder(name: str) -> Iterator[None]:
                 folder.rmdir()
 
 
-def _with_parents(name: str) -> list[Path]:
+def _with_parents(name: str | os.PathLike[str]) -> list[Path]:
     folder = Path(os.path.abspath(name))
     return [folder, *folder.parents]
 
 
 @contextlib.contextmanager
-def _prefix_errors(name: str) -> Iterator[None]:
-    """Convert errors to a one-line Failure that begins with the name, without the hidden folder."""
+def _prefix_errors(name: str | os.PathLike[str]) -> Iterator[None]:
+    """Convert errors to a one-line OutputError that begins with the name, without the hidden
+    folder."""
     try:
         yield
     except (OSError, MemoryError, Failure) as error:
@@ -127,11 +127,13 @@ def _prefix_errors(name: str) -> Iterator[None]:
         if not isinstance(error, Failure):
             reason = getattr(error, "strerror", "not enough memory") or text
             text = f"cannot be written ({reason})"
-        raise Failure(f"{name}: {' '.join(text.split())}") from error
+        failure = OutputError(f"{os.fspath(name)}: {' '.join(text.split())}")
+        failure.errno = getattr(error, "errno", None)
+        raise failure from error
 
 
 @contextlib.contextmanager
-def _hidden_folder(folder: str) -> Iterator[str]:
+def _hidden_folder(folder: str | os.PathLike[str]) -> Iterator[str]:
     """Return a temporary folder in `folder`, so that files can be moved within one file system."""
     try:
         hidden = tempfile.mkdtemp(prefix=HIDDEN, dir=folder)
@@ -145,7 +147,7 @@ def _hidden_folder(folder: str) -> Iterator[str]:
         shutil.rmtree(hidden, ignore_errors=True)
 
 
-def _publish(hidden: str, folder: str) -> None:
+def _publish(hidden: str, folder: str | os.PathLike[str]) -> None:
     """Move all files to `folder` after fsync. Subfolders come first, as the other files refer to
     them. Owner and permissions of replaced files are kept if possible."""
     created = [path for path in Path(hidden).rglob("*") if path.is_file()]
@@ -154,12 +156,12 @@ def _publish(hidden: str, folder: str) -> None:
             os.fsync(file)
     for path in sorted(created, key=lambda path: path.parent == Path(hidden)):
         target = folder / path.relative_to(hidden)
-        target.parent.mkdir(exist_ok=True)
         with contextlib.suppress(OSError):
             old = target.stat()
             path.chmod(old.st_mode & 0o777)
             os.chown(path, old.st_uid, old.st_gid)
-        os.replace(path, target)
+        with created_folder(target.parent):
+            os.replace(path, target)
 
 
 def is_stream(name: str | os.PathLike[str]) -> bool:
@@ -168,8 +170,6 @@ def is_stream(name: str | os.PathLike[str]) -> bool:
     return bool(re.match("/(proc|dev(?!/shm/))/", path)) or (
         os.path.exists(path) and not os.path.isfile(path) and not os.path.isdir(path))
 
-
-# ---- Checks before a run -----------------------------------------------------------------------
 
 class OutputName(NamedTuple):
     """An output of the command line."""
@@ -223,8 +223,8 @@ def check_outputs(outputs: Sequence[OutputName], inputs: Sequence[str]) -> None:
             for folder in folders - tried:
                 with _hidden_folder(folder):
                     tried.add(folder)
-            if os.path.exists(output.file):
-                open(output.file, "ab").close()
+            with contextlib.suppress(FileNotFoundError):  # other errors: rights, long names
+                os.close(os.open(output.file, os.O_WRONLY))
 
 
 def _identity(path: str) -> object:

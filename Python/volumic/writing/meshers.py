@@ -18,8 +18,6 @@ SIDES = ("x_min", "x_max", "y_min", "y_max", "z_min", "z_max")  # BoxFace 1 to 6
 OUTSIDE = 0
 
 
-# ---- Names -------------------------------------------------------------------------------------
-
 class DistinctNames:
     """Generates names that are unique regardless of case."""
 
@@ -85,8 +83,6 @@ def parts_of(surface: Any) -> np.ndarray:
     return parts if caps is None else np.where(caps > 0, 6 + caps, parts)
 
 
-# ---- Text --------------------------------------------------------------------------------------
-
 def rows(form: str, *columns: Any) -> str:
     """Return one line per row of the columns, which may have several components."""
     lists = [part.tolist() for column in columns for part in np.atleast_2d(np.asarray(column).T)]
@@ -103,8 +99,6 @@ def _digits(points: np.ndarray) -> str:
     """Return a format that preserves coordinates exactly."""
     return "%.9g" if points.dtype == np.float32 else "%r"
 
-
-# ---- Surfaces for meshers ----------------------------------------------------------------------
 
 class _Boundaries:
     """Triangles of a surface in groups of equal adjacent regions and part (0, box face or cap)."""

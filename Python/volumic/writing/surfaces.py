@@ -53,6 +53,15 @@ def lines(form: str) -> Pack:
 
 # ---- Data of a surface -------------------------------------------------------------------------
 
+def file_header(surface: Any, remark: str = "") -> str:
+    """Return version, coordinate system, unit and `remark`, for the header of a file."""
+    from .. import __version__
+    from ..geometry import field_text
+    space, unit = field_text(surface, "SPACE"), field_text(surface, "LengthUnit")
+    return (f"volumic {__version__}" + f", SPACE={space}" * bool(space)
+            + f", unit {unit}" * bool(unit) + remark)
+
+
 def numbers(array: Any) -> Any:
     """Return the values of a VTK array, or None."""
     return None if array is None else vtk_to_numpy(array)

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import ctypes
 import dataclasses
 import os
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import time
@@ -26,6 +28,7 @@ MESHERS = ("tetgen", "gmsh")
 MAXIMUM_TETRAHEDRA = 2e8
 MINIMUM_ANGLE = 5.0  # degrees; a warning is given for smaller dihedral angles
 CHUNK = 1 << 18      # tetrahedra per chunk
+INCOMPLETE = "the output of the mesher is incomplete (is the disk full?):"
 
 # gmsh does not mesh volumes of a file. Each one is replaced by a new volume with the same boundary
 # and physical group.
@@ -152,10 +155,13 @@ class TetrahedralMesher:
         log = os.path.join(folder, "log")
         # The surface of an interrupted run is meshed, too.
         can_interrupt, stopped = not self.interrupted(), ""
+        prctl = ctypes.CDLL(None).prctl
         try:
             with open(log, "wb") as output:
-                process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL,
-                                           stdout=output, stderr=subprocess.STDOUT)
+                process = subprocess.Popen(
+                    command, cwd=folder, stdin=subprocess.DEVNULL, stdout=output,
+                    stderr=subprocess.STDOUT,  # ends with this process: PR_SET_PDEATHSIG
+                    preexec_fn=lambda: prctl(1, signal.SIGKILL))
         except OSError as error:
             raise Failure(f"{command[0]} cannot be run ({error.strerror})") from None
         try:
@@ -204,8 +210,6 @@ class TetrahedralMesher:
                 data.AddArray(array)
 
 
-# ---- Results of meshers ------------------------------------------------------------------------
-
 def _end_of(log: str) -> str:
     """Return the last lines of a log, without separators of gmsh."""
     with open(log, encoding="utf-8", errors="replace") as file:
@@ -221,7 +225,7 @@ def _numbers(text: str, keyword: str, columns: int) -> np.ndarray:
     end = re.compile(r"^\s*[A-Za-z#]", re.MULTILINE).search(text, found.end())
     numbers = np.fromstring(text[found.end():end.start() if end else None], sep=" ")
     if len(numbers) != columns * int(found[1]):
-        raise Failure(f"the output of the mesher is damaged: {keyword} are missing")
+        raise Failure(f"{INCOMPLETE} {keyword} are missing")
     return numbers.reshape(-1, columns)
 
 
@@ -236,13 +240,15 @@ def _read_mesh(path: str, surface: Any, mesher: str) -> TetrahedralMesh:
             text = file.read()
     nodes, rows = _numbers(text, "Vertices", 4)[:, :3], _numbers(text, "Tetrahedra", 5).astype(int)
     if len(rows) == 0:
-        raise Failure("the mesher created no tetrahedra")
+        raise Failure("the mesher created no tetrahedra (is the disk full?)")
+    if not text.rstrip().endswith("End"):
+        raise Failure(f"{INCOMPLETE} it has no end")
     own = points_of(surface).astype(float)
     far, near = cKDTree(own).query(nodes)
     added = far > 1e-12 * np.abs(own).max()  # files have at least 14 digits
     near[added] = len(own) + np.arange(added.sum())
     if rows[:, :4].min() < 1 or rows[:, :4].max() > len(nodes):
-        raise Failure("the output of the mesher is damaged: nodes are missing")
+        raise Failure(f"{INCOMPLETE} nodes are missing")
     points, cells = np.concatenate([own, nodes[added]]), near[rows[:, :4] - 1].astype(np.int64)
     a, b, c, d = np.moveaxis(points[cells], 1, 0)
     inverted = ((b - a) * np.cross(c - a, d - a)).sum(1) < 0

@@ -28,8 +28,6 @@ PLAIN = str.maketrans("\"<>&", "'()+")  # VTK does not escape component names in
 PACKAGES = {"meshio": "python3-meshio", "h5py": "python3-h5py", "netCDF4": "python3-netcdf4"}
 
 
-# ---- Faces of tetrahedra -----------------------------------------------------------------------
-
 # Corners of the face opposite to each corner, counter-clockwise seen from outside, and its name in
 # Abaqus: S1 has corners 1 2 3, S2 1 4 2, S3 2 4 3, S4 3 4 1.
 CORNERS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
@@ -95,8 +93,6 @@ def named_sets(faces: Faces, labels: dict[int, str], names: DistinctNames
     sets = {set_names.pairs[a, b]: (faces.first == a) & (faces.second == b) for a, b in faces.pairs}
     return set_names, {**sets, **{set_names.parts[part]: which for part, which in own.items()}}
 
-
-# ---- Tetrahedra --------------------------------------------------------------------------------
 
 def write_tetrahedra_msh(mesh: Any, path: str, remark: str = "") -> None:
     """Write MSH 2.2, which most programs import. A face is in one physical surface: of its cap,
@@ -180,8 +176,6 @@ def write_vtu(mesh: Any, path: str, _remark: str = "") -> None:
     write_pieces(path, [xml_text(writer, grid)])
 
 
-# ---- Formats of meshio -------------------------------------------------------------------------
-
 def write_by_meshio(tetrahedra: Any, path: str, _remark: str = "") -> None:
     """Write tetrahedra and the faces between labels by meshio: .med has named groups, .exo named
     blocks and node sets, .bdf and .mesh numbers, where those of faces are above those of labels.
@@ -241,8 +235,6 @@ def _name_blocks(path: str, labels: dict[int, str]) -> None:
         names[:] = np.array([list(name.encode()[:32].ljust(33, b"\0")) for name in labels.values()],
                             np.uint8).view("S1")
 
-
-# ---- All formats -------------------------------------------------------------------------------
 
 def write_tetrahedra(mesh: Any, path: str, remark: str = "") -> None:
     """Write a TetrahedralMesh in the format of the suffix."""
