@@ -37,6 +37,16 @@ public:
   bool GoOn(const Status&) override { return this->CanContinue || !this->HasPierced; }
 };
 
+/** Cancels at the n-th query. */
+class StopAt final : public Monitor
+{
+public:
+  explicit StopAt(int n) : Left(n) {}
+  bool GoOn(const Status&) override { return --this->Left > 0; }
+
+  int Left;
+};
+
 SurfaceOptions TwentyIterations()
 {
   SurfaceOptions options = IsoHalf();
@@ -115,6 +125,44 @@ TEST(Verification, RepairsSurfaceOfLevel)
     EXPECT_LE(features.EulerCharacteristic, 2) << "the repair may add a handle";
     EXPECT_NEAR(features.Volume, requested, 0.1 * requested)
       << "cancelled surfaces are not snapped";
+  }
+}
+
+TEST(Verification, ReturnsValidSurfacesOfNoise)
+{
+  // Independent voxels, strong forces, little friction. Test snapshots, and cancelled runs.
+  for (unsigned seed = 0; seed < 4; ++seed)
+  {
+    std::mt19937 random(seed);
+    const auto value = [&random] { return std::generate_canonical<double, 24>(random); };
+    const TestVolume volume =
+      MakeVolume(10, [&](double, double, double) { return value() < 0.4 ? 1000. : 0.; });
+    LevelImage fine = volume.Image;
+    fine.Unit = 1. / SizingField::DivisionFactor;
+    SurfaceOptions options = TwentyIterations();
+    options.IsoValue = 500.;
+    options.IsopotentialWeight = 1e3 * value();
+    options.TensionWeight = 10. * value();
+    options.Friction = 0.01 + value();
+    bool isCancelled = true;
+    for (int query = 1; isCancelled; query += 1 + query / 2)
+    {
+      SCOPED_TRACE(testing::Message() << "seed " << seed << ", query " << query);
+      StopAt monitor(query);
+      TestEvolution evolution(options, Threads, monitor);
+      evolution.Task.Observe = [](int, const std::function<SurfaceResult()>& take)
+      { ExpectValidMesh(take()); };
+      evolution.Task.Grading.ThinParts = seed % 2 == 1;
+      evolution.StartEnclosing(volume.Image, 0);
+      evolution.Run();
+      if (!evolution.IsStopped() && evolution.Divide(fine, -1))
+      {
+        evolution.Run();
+      }
+      EXPECT_EQ(evolution.Verified().Found, 0);
+      ExpectValidMesh(evolution.Result());
+      isCancelled = monitor.Left <= 0;
+    }
   }
 }
 
