@@ -7,6 +7,7 @@ import pickle
 import subprocess
 import sys
 import unittest
+import unittest.mock
 import warnings
 
 import numpy as np
