@@ -63,7 +63,7 @@ class LevelMonitor final : public Monitor
 {
 public:
   /**
-   * Monitor the levels `coarsest` to `finest`. Each takes three times as long as the coarser one.
+   * Monitor the levels `coarsest` to `finest`. Each takes about three times as long as the last.
    * @param before fraction of the work before the first of these levels
    */
   LevelMonitor(RunObserver& observer, double before, int coarsest, int finest)
