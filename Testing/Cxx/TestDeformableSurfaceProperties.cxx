@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 
-// Each property has its own setting. The tests of the core check its effect.
+// Each property has its own setting and an effect. The tests of the core check which one.
 #include "Settings/PropertyTable.h"
 #include "SurfaceTestTools.h"
 
@@ -95,5 +95,36 @@ TEST(DeformableSurfaceProperties, EachHasItsOwnValue)
     filter->Print(printed);
     line << "  " << changed.Name << ": " << changed.Value << "\n";
     EXPECT_TRUE(Has(printed.str(), line.str())) << line.str();
+  }
+}
+
+TEST(DeformableSurfaceProperties, EachReachesTheSurface)
+{
+  using Setter = std::function<void(vtkDeformableSurface&)>;
+  const auto surfaceWith = [](const Setter& change)
+  {
+    const auto filter = FilterOf(BallImage(30, 30, 30));
+    filter->SetCoarsestLevel(0);
+    change(*filter);
+    filter->Update();
+    EXPECT_GT(filter->GetOutput()->GetNumberOfPoints(), 100);
+    return filter;
+  };
+  const auto usual = surfaceWith([](vtkDeformableSurface&) {});
+  const Setter setters[] = { [](vtkDeformableSurface& f) { f.SetTensionWeight(0.5); },
+    [](vtkDeformableSurface& f) { f.SetElasticityWeight(0.3); },
+    [](vtkDeformableSurface& f) { f.SetIsopotentialWeight(0.7); },
+    [](vtkDeformableSurface& f) { f.SetGradientWeight(0.2); },
+    [](vtkDeformableSurface& f) { f.SetFriction(6.); },
+    [](vtkDeformableSurface& f) { f.SetMaximumNumberOfIterations(7); },
+    [](vtkDeformableSurface& f) { f.SetConvergenceTolerance(0.1); },
+    [](vtkDeformableSurface& f) { f.FreezeMotionlessVerticesOff(); },
+    [](vtkDeformableSurface& f) { f.SnapToIsoValueOff(); },
+    [](vtkDeformableSurface& f) { f.SetSamplingRatio(0.7); } };
+  int number = 0;
+  for (const Setter& set : setters)
+  {
+    EXPECT_FALSE(AreSameSurfaces(usual->GetOutput(), surfaceWith(set)->GetOutput())) << number;
+    ++number;
   }
 }
