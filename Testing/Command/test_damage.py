@@ -60,7 +60,8 @@ def forked(function, log):
             resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY << 12, MEMORY << 12))
             signal.alarm(600)
-            warnings.simplefilter("ignore", ResourceWarning)  # of libraries, which Python ignores
+            for kind in (DeprecationWarning, ImportWarning, ResourceWarning):  # not by default
+                warnings.simplefilter("ignore", kind)
             code = function()
             sys.stdout.flush()
         except BaseException:  # pylint: disable=broad-except
@@ -171,7 +172,8 @@ class DamageTest(CommandTestCase):
             with contextlib.suppress(ImportError):
                 importlib.import_module(name)
         self.write_bytes("ball.mha", META + ball().tobytes())
-        self.assertEqual(forked(lambda: collect(self.folder), self.path("log"))[:2], (0, ""))
+        code, output, _ = forked(lambda: collect(self.folder), self.path("log"))
+        self.assertEqual(code, 0, output)
         samples = json.loads(self.content("list"))
         self.assertGreater(len(samples), 100)
         others = [self.content(path) for _, path, _ in samples if os.path.isfile(path)]
