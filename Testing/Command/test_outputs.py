@@ -109,10 +109,10 @@ class AllKindsTest(OutputsTest):
                 self.write_bytes(name, OLD)
             last, seen = numbers.randrange(4, 16), set()
             with subprocess.Popen(words) as process:
-                while process.poll() is None and len(seen) < last:
+                while process.poll() is None and (len(seen) < last or numbers.random() < .998):
                     seen.update(name for name in os.listdir(self.path("out")) if name[0] == ".")
                 process.send_signal(kind)
-            self.assertIn(process.returncode, (0, -signal.SIGKILL), kind)
+            self.assertIn(process.returncode, (0, 1, -signal.SIGKILL), kind)  # 1: TetGen was stopped
             self.assertEqual({name for name, content in self.files().items() if content in (
                 OLD, whole[name])}, set(whole))
 
