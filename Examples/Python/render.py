@@ -16,6 +16,7 @@ from vtkmodules.vtkRenderingCore import (
     vtkActor, vtkImageSlice, vtkImageSliceMapper, vtkLight, vtkPolyDataMapper, vtkRenderer,
     vtkRenderWindow, vtkTextProperty, vtkTextRenderer, vtkWindowToImageFilter)
 from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
+from volumic.writing.files import replace_file
 
 BACKGROUND = (0.085, 0.092, 0.105)
 BONE = (0.93, 0.87, 0.75)
@@ -281,5 +282,4 @@ def write_png(pixels, path):
     writer.SetCompressionLevel(9)
     writer.SetInputData(image_of(pixels))
     writer.Write()
-    with open(path, "wb") as file:
-        file.write(memoryview(vtk_to_numpy(writer.GetResult())))
+    replace_file(path, memoryview(vtk_to_numpy(writer.GetResult())))

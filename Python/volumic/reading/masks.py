@@ -45,7 +45,7 @@ def _merged(masks, choice):
     """Return the label map of masks, each a location, a name and a function that reads it. Where
     masks overlap, the smaller one has the voxel; with choice.layers, overlapping masks are in
     different components of the array."""
-    whole, layers, counts, names, shared, several = None, [], [0], [""], {}, 0
+    whole, layers, counts, names, shared, several = None, [], [0], [""], {}, False
     for number, (location, name, load) in enumerate(masks, 1):
         with prefix_errors(location):
             mask = load()

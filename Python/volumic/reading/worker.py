@@ -11,6 +11,7 @@ result, whose arrays are memory-mapped. The process ends with its caller.
 from __future__ import annotations
 
 import ctypes
+import errno
 import importlib
 import mmap
 import os
@@ -104,6 +105,9 @@ def serve(number, caller):
         data = pickle.dumps(result, protocol=5, buffer_callback=buffers.append)
         spans = _write(buffers)
     except Exception as error:  # pylint: disable=broad-except
+        os.ftruncate(number, _HEAD)
+        if getattr(error, "errno", 0) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+            error.filename = tempfile.gettempdir()
         data, spans = pickle.dumps(failure_of(error)), []
     result_data = pickle.dumps((data, spans))
     offset = _file.seek(0, os.SEEK_END) or _file.seek(_HEAD)

@@ -113,8 +113,6 @@ def unsupported_data(surface: Any, suffix: str) -> Iterator[str]:
                f"edges are about {edge:.4g} long; use .vtp, .vtk or .msh")
 
 
-# ---- Formats of surfaces -----------------------------------------------------------------------
-
 def vtp(surface: Any, _remark: str = "", show: Show = silent) -> Iterator[bytes]:
     """Yield VTK's XML format, with all arrays."""
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
@@ -208,8 +206,6 @@ def obj(surface: Any, remark: str = "", show: Show = silent) -> Iterator[bytes]:
 
 FORMATS = {".vtp": vtp, ".vtk": vtk, ".stl": stl, ".ply": ply, ".obj": obj}
 
-
-# ---- VTK's writers -----------------------------------------------------------------------------
 
 def xml_text(writer: Any, data: Any, show: Show = silent) -> bytes:
     """Return the output of a VTK XML writer."""
