@@ -20,7 +20,9 @@ ComputationalSpace::ComputationalSpace(vtkImageData* level0, Metric metric)
 {
   const double* spacing = level0->GetSpacing();
   const double* direction = level0->GetDirectionMatrix()->GetData();
-  this->Unit = std::min({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  const auto [least, most] =
+    std::minmax({ std::abs(spacing[0]), std::abs(spacing[1]), std::abs(spacing[2]) });
+  this->Unit = least;
   for (int axis = 0; axis < 3 && metric == Metric::World && this->Unit > 0.0; ++axis)
   {
     this->Steps[axis] = std::abs(spacing[axis]) / this->Unit;
@@ -33,16 +35,24 @@ ComputationalSpace::ComputationalSpace(vtkImageData* level0, Metric metric)
         direction[3 * row + column] * spacing[column] / this->Steps[column];
     }
   }
+  this->Origin = FirstVoxelOf(level0);
   const double determinant = vtkMatrix3x3::Determinant(this->Forward.data());
-  if (!std::isfinite(determinant) || determinant == 0.0)
+  // Floats must represent volumes, and doubles positions. The negations reject NaN, too.
+  if (!(least >= 1e-12 && most <= std::min(1e12, 1000.0 * least) && std::abs(determinant) < 1e40 &&
+        std::abs(determinant) > 1e-6 * std::pow(least, 3.0)))
   {
-    ThrowInvalidArgument(
-      "the spacing of the image is zero or not finite, or its direction matrix is singular. Set "
-      "the spacing to the distances of the voxels.");
+    ThrowInvalidArgument("the spacing of the image is ", spacing[0], " x ", spacing[1], " x ",
+      spacing[2],
+      ", or its direction matrix is singular. Set the spacing to the distances of the "
+      "voxels, from 1e-12 to 1e12, and to at most 1000 times the smallest.");
+  }
+  if (!(std::hypot(this->Origin[0], this->Origin[1], this->Origin[2]) <= 1e10 * least))
+  {
+    ThrowInvalidArgument("the first voxel is at (", this->Origin[0], ", ", this->Origin[1], ", ",
+      this->Origin[2], "), more than 1e10 voxels from 0. Set the origin of the image nearer to 0.");
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;
-  this->Origin = FirstVoxelOf(level0);
 }
 
 Point ComputationalSpace::ToWorld(const Point& position) const

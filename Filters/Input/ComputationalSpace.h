@@ -33,7 +33,7 @@ public:
 
   /**
    * @param level0 the finest image
-   * @throws InvalidArgument for zero spacing or a singular direction matrix
+   * @throws InvalidArgument if the spacing, direction or origin is out of range
    */
   ComputationalSpace(vtkImageData* level0, Metric metric);
 

@@ -28,24 +28,14 @@ bool IsInt(T value)
 template <typename T>
 T Rounded(T value)
 {
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return std::round(value);
-  }
-  return value;
+  return std::is_floating_point_v<T> ? static_cast<T>(std::round(value)) : value;
 }
 
 template <typename T>
 std::string DigitsOf(T value)
 {
-  if constexpr (std::is_floating_point_v<T>)
-  {
-    return std::to_string(static_cast<long long>(value));
-  }
-  else
-  {
-    return std::to_string(value);
-  }
+  return std::to_string(
+    static_cast<std::conditional_t<std::is_floating_point_v<T>, long long, T>>(value));
 }
 
 /** Values of an array that need a conversion. */
@@ -69,7 +59,7 @@ Conversion<T> FindConversion(const T* voxels, vtkDataArray* array, std::size_t m
     const T whole = Rounded(voxels[i]);
     const auto value = static_cast<double>(voxels[i]);
     const double off = std::abs(value - static_cast<double>(whole));
-    if (off > mostOff || std::isinf(value))
+    if (off > mostOff || (std::is_floating_point_v<T> && std::abs(value) > 9e18))
     {
       ThrowInvalidArgument(NameOf(array), " has the value ", value,
         "; labels must be integers. For the surface of an image that is not a label map apply "

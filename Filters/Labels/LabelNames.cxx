@@ -50,7 +50,9 @@ LabelNames LabelNames::Of(vtkDataObject* image)
   }
   for (vtkIdType i = 0; i < count; ++i)
   {
-    const int label = static_cast<int>(values->GetComponent(i, 0));
+    // In this order NaN is in the range of int, too.
+    const int label = static_cast<int>(
+      std::max(-VTK_INT_MAX + 0.0, std::min(VTK_INT_MAX + 0.0, values->GetComponent(i, 0))));
     if (names && !names->GetValue(i).empty())
     {
       labels.Names[label] = names->GetValue(i);

@@ -4,6 +4,7 @@
 
 #include "Core/Common/ThrowInvalidArgument.h"
 #include "Core/Evolution/SurfaceOptions.h"
+#include "Input/ComputationalSpace.h"
 #include "Pyramid/ImageLevels.h"
 #include "Settings/SegmentationSettings.h"
 
@@ -26,9 +27,7 @@ constexpr double MaximumTolerance = 1.0;
  */
 constexpr double FractionOfLargest = 0.625;
 
-/**
- * Limit of this unit for thick slices: the Gaussian is at most this times Smoothing, or the unit.
- */
+/** Limit of this unit: the Gaussian is at most this times Smoothing, or the unit. */
 constexpr double MaximumUnit = 2.5;
 
 void CheckNumber(const char* name, double value)
@@ -39,14 +38,14 @@ void CheckNumber(const char* name, double value)
   }
 }
 
-/** @throws InvalidArgument naming the possible lengths */
-void CheckEdgeLength(double length, vtkImageData* image)
+/** @throws InvalidArgument naming the possible lengths, up to about this number of voxels */
+void CheckEdgeLength(double length, vtkImageData* image, double longest)
 {
-  constexpr int enough = 1 << 12; // Allow all levels: the size of the image does not matter here.
+  PyramidOptions pyramid;
+  const int enough = static_cast<int>(std::min(longest, 1e5)) * pyramid.MinimumLevelSize;
   vtkNew<vtkImageData> frame;
   frame->SetDimensions(enough, enough, enough);
   frame->SetSpacing(image->GetSpacing());
-  PyramidOptions pyramid;
   PlanEdgeLength(length, SurfaceOptions().SamplingRatio, frame, pyramid);
 }
 }
@@ -58,8 +57,8 @@ void LabelSettings::Check(vtkImageData* image) const
   {
     ThrowInvalidArgument("Smoothing is ", this->Smoothing, " voxels. Set it to at most 10.");
   }
-  const bool isAutomatic = this->VoxelTolerance == -1.0;
-  if (!isAutomatic && !(this->VoxelTolerance >= 0.0 && this->VoxelTolerance <= MaximumTolerance))
+  if (this->VoxelTolerance != -1.0 &&
+    !(this->VoxelTolerance >= 0.0 && this->VoxelTolerance <= MaximumTolerance))
   {
     ThrowInvalidArgument("Voxel Tolerance is ", this->VoxelTolerance, ". Set it to 0 to ",
       MaximumTolerance, " voxels, or to -1 (a quarter of Smoothing).");
@@ -72,14 +71,14 @@ void LabelSettings::Check(vtkImageData* image) const
   CheckNumber("Edge Length", this->EdgeLength);
   CheckGrading(this->Grading, this->EdgeLength);
   CheckNumber("Minimum Component Volume", this->MinimumComponentVolume);
-  if (this->FinestLevel < -1)
+  const double longest =
+    image->GetLength() / ComputationalSpace(image, volumic::Metric::World).WorldUnit();
+  if (this->FinestLevel < -1 || std::pow(std::sqrt(3.0), this->FinestLevel) > longest)
   {
-    ThrowInvalidArgument("Finest Level is ", this->FinestLevel, ". Set it to -1 or more.");
+    ThrowInvalidArgument("Finest Level is ", this->FinestLevel,
+      ". Set it to -1 or more, with edges not longer than the image.");
   }
-  if (this->Metric != 0 && this->Metric != 1)
-  {
-    ThrowInvalidArgument("Metric is ", this->Metric, ". Set it to 0 (Voxels) or 1 (World).");
-  }
+  CheckEnumeration("Metric", static_cast<volumic::Metric>(this->Metric), volumic::Metric::World);
   const auto keep = static_cast<KeepComponentsType>(this->KeepComponents);
   if (keep != KeepComponentsType::AllComponents && keep != KeepComponentsType::LargestComponent &&
     keep != KeepComponentsType::LargeComponents)
@@ -89,7 +88,7 @@ void LabelSettings::Check(vtkImageData* image) const
   }
   if (this->EdgeLength > 0.0)
   {
-    CheckEdgeLength(this->EdgeLength, image);
+    CheckEdgeLength(this->EdgeLength, image, longest);
   }
 }
 

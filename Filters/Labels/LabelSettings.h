@@ -7,10 +7,9 @@
 #include "Core/Labels/LabelField.h"
 #include "Core/Labels/LabelMap.h"
 
-class vtkImageData;
-
 #include <algorithm>
 
+class vtkImageData;
 namespace volumic
 {
 /** Properties of vtkLabelsToSurfaces, except the choice of labels. Numbers may be out of range. */

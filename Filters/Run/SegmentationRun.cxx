@@ -42,7 +42,8 @@ SegmentationRun::SegmentationRun(const SegmentationRequest& request, const Volum
   options.RecoverCavities = options.RecoverMissedParts &&
     (this->Settings.Recovery == RecoveryType::RecoverObjectsAndCavities ||
       this->Settings.Range().IsUsed());
-  options.SeedRadius /= this->Levels.GetComputationalSpace().WorldUnit();
+  options.SeedRadius = std::min(options.SeedRadius, volume.Voxels.Levels[0].Image->GetLength()) /
+    this->Levels.GetComputationalSpace().WorldUnit();
   if (this->Settings.EdgeLength != 0.0 && !volume.IsOfImage)
   {
     this->ChooseEdgeLength();
@@ -57,9 +58,8 @@ void SegmentationRun::ChooseEdgeLength()
   {
     units.push_back(this->Levels.Pyramid().UnitInWorld(level));
   }
-  EdgeLengthPreferences preferences;
-  preferences.SamplingRatio = this->Settings.Options.SamplingRatio;
-  const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units, preferences);
+  const EdgeLengthPlan plan = PlanEdgeLength(this->Settings.EdgeLength, units,
+    EdgeLengthPreferences{ PyramidOptions(), this->Settings.Options.SamplingRatio });
   this->Settings.End.FinestLevel = plan.FinestLevel;
   this->Settings.Options.SamplingRatio = plan.SamplingRatio;
   this->Levels.SetFactorBelowLevel0(plan.ReductionFactor);

@@ -36,6 +36,13 @@ protected:
 TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
 {
   const double infinite = std::numeric_limits<double>::infinity();
+  const auto placed = [](double spacing, double origin)
+  {
+    const auto image = BallImage(16, 16, 16);
+    image->SetSpacing(1.0, 1.0, spacing);
+    image->SetOrigin(origin, 0.0, 0.0);
+    return image;
+  };
   std::vector<ErrorCase<vtkDeformableSurface>> cases = {
     { [](vtkDeformableSurface* f) { f->SetIsoValue(std::nan("")); },
       { "Iso Value is not set", "range from 0 to 100" } },
@@ -92,6 +99,14 @@ TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
         f->SetInitialSurfaceData(broken);
       },
       { "Input port 1", "the data have a cell with point 1000000" } },
+    { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(2000.0, 0.0)); },
+      { "spacing of the image is 1 x 1 x 2000", "1000 times" } },
+    { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1e-13, 0.0)); },
+      { "1 x 1 x 1e-13", "1e-12 to 1e12" } },
+    { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1.0, 1e11)); },
+      { "first voxel is at (100000000000, 0, 0)", "1e10 voxels from 0" } },
+    { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1.0, std::nan(""))); },
+      { "first voxel is at (nan" } },
     { [](vtkDeformableSurface* f)
       {
         f->SetInitializationToSeeds();

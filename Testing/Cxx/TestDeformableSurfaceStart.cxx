@@ -15,6 +15,21 @@ TEST(DeformableSurfaceStart, StartsFromAnInputSurface)
   ExpectSphere(filter->GetOutput(), BallCentre, BallRadius, 0.2);
 }
 
+TEST(DeformableSurfaceStart, SeedsAreNotLargerThanTheImage)
+{
+  const auto surfaceOf = [](double radius)
+  {
+    return Updated<vtkDeformableSurface>(BallImage(12, 12, 12),
+      [radius](vtkDeformableSurface* filter)
+      {
+        filter->SetIsoValue(50.0);
+        filter->SetInitializationToSeeds();
+        filter->SetSeedRadius(radius);
+      });
+  };
+  EXPECT_TRUE(AreSameSurfaces(surfaceOf(1e9)->GetOutput(), surfaceOf(50.0)->GetOutput()));
+}
+
 namespace
 {
 /** The coarsest level that has a surface. */

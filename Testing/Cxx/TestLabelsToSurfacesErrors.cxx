@@ -54,17 +54,23 @@ TEST_F(LabelsToSurfacesErrors, ReportsImagesThatAreNotLabelMaps)
   vtkNew<vtkImageData> colours;
   colours->SetDimensions(9, 9, 9);
   colours->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  const auto flat = Balls();
+  flat->SetSpacing(1., 2000., 1.);
   const std::vector<std::pair<vtkSmartPointer<vtkImageData>, std::vector<std::string>>> cases = {
     { map(9, [](int) { return 0.; }), { "Input port 0", "no label except Background Label, 0" } },
     { map(
         9, [](int i) { return 0.5 * i; }, VTK_DOUBLE),
       { "Input port 0", "'Labels' has the value 0.5", "integers", "Volume to Surface" } },
     { map(
+        9, [](int i) { return i > 4 ? 1e30 : 0.; }, VTK_DOUBLE),
+      { "'Labels' has the value 1e+30" } },
+    { map(
         9, [](int i) { return i > 4 ? std::nan("") : 0.; }, VTK_DOUBLE),
       { "no label except Background Label, 0" } },
     { map(1, [](int i) { return std::floor(i / 4.); }),
       { "Input port 0", "9 x 9 x 1", "at least 2" } },
     { colours.Get(), { "Input port 0", "components" } },
+    { flat, { "spacing of the image is 1 x 2000 x 1" } },
   };
   for (const auto& [image, parts] : cases)
   {
@@ -147,6 +153,7 @@ TEST_F(LabelsToSurfacesErrors, PropertiesOutOfRange)
   expect(&Labels::SetEdgeLength, 0., 1e-3, { "Edge Length is 0.001" });
   expect(&Labels::SetTimeLimit, 0., -1., { "Time Limit is -1" });
   expect(&Labels::SetFinestLevel, 0, -2, { "Finest Level is -2" });
+  expect(&Labels::SetFinestLevel, 0, 8, { "Finest Level is 8", "not longer than the image" });
   expect(&Labels::SetKeepComponents, 0, 2, { "Keep Components is 2" });
   expect(&Labels::SetMinimumComponentVolume, 0., infinite, { "Minimum Component Volume is inf" });
 }
