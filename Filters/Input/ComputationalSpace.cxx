@@ -48,8 +48,8 @@ ComputationalSpace::ComputationalSpace(vtkImageData* level0, Metric metric)
   }
   if (!(std::hypot(this->Origin[0], this->Origin[1], this->Origin[2]) <= 1e10 * least))
   {
-    ThrowInvalidArgument("the first voxel is at (", this->Origin[0], ", ", this->Origin[1], ", ",
-      this->Origin[2], "), more than 1e10 voxels from 0. Set the origin of the image nearer to 0.");
+    ThrowInvalidArgument(
+      "the first voxel is more than 1e10 voxels from 0. Move the origin nearer.");
   }
   vtkMatrix3x3::Invert(this->Forward.data(), this->Backward.data());
   this->Mirrored = determinant < 0.0;

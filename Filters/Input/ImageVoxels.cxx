@@ -98,8 +98,8 @@ std::string ChosenName(vtkInformation* selection)
 bool FitsFloat(double smallest, double largest)
 {
   const double size = std::max(std::abs(smallest), std::abs(largest));
-  constexpr double rounding = 0.5 * std::numeric_limits<float>::epsilon();
-  return largest == smallest || size * rounding <= 1e-5 * (largest - smallest);
+  return largest == smallest ||
+    size * 0.5 * std::numeric_limits<float>::epsilon() <= 1e-5 * (largest - smallest);
 }
 
 std::string NameOf(vtkDataArray* array)

@@ -84,9 +84,10 @@ bool AreLevels(const std::vector<vtkImageData*>& images)
 
 [[noreturn]] void ThrowInvalidType(vtkDataObject* data)
 {
-  const bool isField = !data->IsA("vtkPolyData") && !data->IsA("vtkTable");
   ThrowInvalidArgument("the input is a ", data->GetClassName(), ", not an image (vtkImageData). ",
-    isField ? "Apply Resample To Image (vtkResampleToImage) first." : "Connect an image.");
+    !data->IsA("vtkPolyData") && !data->IsA("vtkTable")
+      ? "Apply Resample To Image (vtkResampleToImage) first."
+      : "Connect an image.");
 }
 
 /** Return the only image, or level 0 of a pyramid. */
@@ -102,8 +103,7 @@ vtkImageData* ImageIn(vtkDataObjectTree* composite)
   if (images.size() > 1)
   {
     ThrowInvalidArgument("the ", composite->GetClassName(), " has ", images.size(),
-      " images, which are not the levels of a pyramid. Select one by Extract Block, or combine "
-      "them "
+      " images, which are not the levels of a pyramid. Select one by Extract Block, or join them "
       "by Resample To Image (vtkResampleToImage).");
   }
   if (leaves.empty())
@@ -135,8 +135,9 @@ void BlankAsCells(vtkImageData* cells, vtkImageData* points)
     hidden->SetName(vtkDataSetAttributes::GhostArrayName());
     for (vtkIdType cell = 0; cell < ghosts->GetNumberOfTuples(); ++cell)
     {
-      const bool isHidden = (ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL) != 0;
-      hidden->InsertNextValue(isHidden ? vtkDataSetAttributes::HIDDENPOINT : 0);
+      hidden->InsertNextValue(ghosts->GetValue(cell) & vtkDataSetAttributes::HIDDENCELL
+          ? vtkDataSetAttributes::HIDDENPOINT
+          : 0);
     }
     points->GetPointData()->AddArray(hidden);
   }

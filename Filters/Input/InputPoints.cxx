@@ -93,7 +93,6 @@ Point CheckInside(const Point& world, vtkIdType id, const ComputationalSpace& sp
   for (int axis = 0; axis < 3; ++axis)
   {
     const double step = space.Step()[axis];
-    // NaN is an error, too.
     if (!(position[axis] >= -step && position[axis] <= step * (size[axis] + margin)))
     {
       ThrowInvalidArgument("point ", id, " (", world[0], ", ", world[1], ", ", world[2],
@@ -132,9 +131,9 @@ std::vector<Point> SeedsOf(vtkPolyData* port1, const ComputationalSpace& space)
 {
   if (port1 && IsSurfaceOnly(port1))
   {
-    ThrowInvalidArgument("the data are a surface, not seeds. Connect the centers of the seeds as "
-                         "vertices or as points "
-                         "without cells, or set Initialization to Input Surface.");
+    ThrowInvalidArgument(
+      "the data are a surface, not seeds. Connect the centers of the seeds as "
+      "vertices or as points without cells, or set Initialization to Input Surface.");
   }
   return PointPositions(port1, space);
 }
@@ -199,15 +198,19 @@ std::string FindInvalidCells(vtkPolyData* data)
     {
       return "have invalid cells: offsets and connectivity do not match. Repair the file.";
     }
-    double range[2] = { 0.0, -1.0 };
-    if (cells->GetNumberOfConnectivityIds() > 0)
-    {
-      cells->GetConnectivityArray()->GetRange(range, 0);
-    }
+    double range[2]; // the greatest and the least number without cells
+    cells->GetConnectivityArray()->GetRange(range, 0);
     if (range[0] < 0.0 || range[1] >= static_cast<double>(points))
     {
       return Join("have a cell with point ", range[0] < 0.0 ? range[0] : range[1], ", but only ",
         points, " points. Repair the file.");
+    }
+  }
+  for (vtkIdType strip = 0; strip < data->GetNumberOfStrips(); ++strip)
+  {
+    if (data->GetStrips()->GetCellSize(strip) < 3) // vtkTriangleFilter crashes.
+    {
+      return Join("have strip ", strip, " with less than 3 points. Remove it.");
     }
   }
   return "";

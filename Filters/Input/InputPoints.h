@@ -51,10 +51,7 @@ std::vector<Point> SelectionPositions(
 std::vector<Point> PositionsOf(const std::vector<Point>& positions, const char* label,
   const ComputationalSpace& space, const std::array<int, 3>& size);
 
-/**
- * Return an error message, to follow a name, if cells have invalid point ids, for which VTK's
- * filters would crash. Return an empty string for valid cells.
- */
+/** Return why VTK crashes with these cells, to follow a name, or an empty string. */
 std::string FindInvalidCells(vtkPolyData* data);
 }
 

@@ -32,9 +32,8 @@ const unsigned char* HidingGhosts(
     return nullptr;
   }
   const unsigned char* values = ghosts->GetPointer(0);
-  const bool hides =
-    std::any_of(values, values + count, [hidden](unsigned char g) { return (g & hidden) != 0; });
-  return hides ? values : nullptr;
+  const auto hides = [hidden](unsigned char g) { return (g & hidden) != 0; };
+  return std::any_of(values, values + count, hides) ? values : nullptr;
 }
 
 LargeVector<std::uint8_t> NotBlanked(vtkImageData* image)

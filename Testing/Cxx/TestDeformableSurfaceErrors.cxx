@@ -99,14 +99,24 @@ TEST_F(DeformableSurfaceErrors, ReportsInvalidPropertiesAndInputs)
         f->SetInitialSurfaceData(broken);
       },
       { "Input port 1", "the data have a cell with point 1000000" } },
+    { [](vtkDeformableSurface* f)
+      {
+        vtkNew<vtkPolyData> broken;
+        broken->DeepCopy(SphereAt({ 16, 16, 16 }, 10));
+        broken->SetStrips(vtkNew<vtkCellArray>());
+        broken->GetStrips()->InsertNextCell(0);
+        f->SetInitializationToInputSurface();
+        f->SetInitialSurfaceData(broken);
+      },
+      { "Input port 1", "the data have strip 0 with less than 3 points" } },
     { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(2000.0, 0.0)); },
       { "spacing of the image is 1 x 1 x 2000", "1000 times" } },
     { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1e-13, 0.0)); },
       { "1 x 1 x 1e-13", "1e-12 to 1e12" } },
     { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1.0, 1e11)); },
-      { "first voxel is at (100000000000, 0, 0)", "1e10 voxels from 0" } },
+      { "Input port 0", "more than 1e10 voxels from 0" } },
     { [placed](vtkDeformableSurface* f) { f->SetInputDataObject(placed(1.0, std::nan(""))); },
-      { "first voxel is at (nan" } },
+      { "more than 1e10 voxels from 0" } },
     { [](vtkDeformableSurface* f)
       {
         f->SetInitializationToSeeds();
