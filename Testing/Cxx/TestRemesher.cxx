@@ -50,8 +50,7 @@ TEST(Remesher, SplitAvoidsNeedles)
     }
     Remesher(bench, nullptr, true).Split(all);
     EXPECT_EQ(bench.Counts.Splits, splits);
-    EXPECT_EQ((bench.RemeshFlags[0] & HasLongEdge) != 0, splits == 0)
-      << "the edge is tested again";
+    EXPECT_EQ((bench.RemeshFlags[0] & HasLongEdge) != 0, splits == 0) << "the edge is tested again";
   }
 }
 
