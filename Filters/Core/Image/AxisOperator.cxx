@@ -64,7 +64,6 @@ Band MakeBand(double centre, double offset, std::int64_t size)
 }
 
 AxisOperator::AxisOperator(std::int64_t inputSize, std::int64_t outputSize, double offset)
-  : Input(inputSize)
 {
   if (inputSize < 1 || outputSize < 1 || !(offset >= 0.0 && offset <= 1.0))
   {

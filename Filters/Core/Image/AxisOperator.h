@@ -32,20 +32,16 @@ public:
    */
   AxisOperator(std::int64_t inputSize, std::int64_t outputSize, double offset);
 
-  std::int64_t InputSize() const { return this->Input; }
-  std::int64_t OutputSize() const { return static_cast<std::int64_t>(this->FirstVoxel.size()); }
-
   /** Return the number of weights of each output voxel, padded with zeros. */
   int NumberOfTaps() const { return this->Taps; }
 
-  /** Return the first input voxel of an output voxel. First(i) + NumberOfTaps() <= InputSize(). */
+  /** Return the first input voxel of an output voxel. */
   std::int64_t First(std::int64_t output) const { return this->FirstVoxel[output]; }
 
   /** Return the NumberOfTaps() weights of an output voxel. Their sum is 1. */
   const double* Weights(std::int64_t output) const { return &this->Weight[output * this->Taps]; }
 
 private:
-  std::int64_t Input;
   int Taps = 0;
   std::vector<std::int64_t> FirstVoxel;
   std::vector<double> Weight;

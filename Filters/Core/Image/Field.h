@@ -71,9 +71,6 @@ public:
     return std::abs(sample.Value) > distance * this->SlopeOf(sample);
   }
 
-  /** Return the value of background voxels outside the image. */
-  float Background() const { return this->Outside; }
-
   const LevelImage& Image() const { return this->Level; }
   const ImageMargin& Margin() const { return this->Around; }
   /** Return Value at a voxel of the image. */

@@ -137,34 +137,4 @@ int CountSelfIntersections(const IndexedSurface& surface, int limit, Intersectio
   }
   return found;
 }
-
-std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
-  const TriangleTree& tree, double tolerance)
-{
-  const double margin =
-    tolerance + RoundingOfExtent * std::max(LargestCoordinate(surface), LargestCoordinate(other));
-  std::vector<int> found;
-  for (int i = 0; i < static_cast<int>(surface.Triangles.size()); ++i)
-  {
-    const MeshTriangle triangle = RoundedTriangle(surface, i);
-    const CandidateBox box(triangle, margin);
-    bool isFound = false;
-    tree.Traverse([&](const TriangleTree::Node& node) { return box.Overlaps(node); },
-      [&](int j)
-      {
-        MeshTriangle candidate = RoundedTriangle(other, j);
-        for (int& vertex : candidate.Vertex)
-        {
-          vertex = -1 - vertex; // Differs from all vertices of `surface`.
-        }
-        isFound = TrianglesIntersect(triangle, candidate, tolerance);
-        return !isFound;
-      });
-    if (isFound)
-    {
-      found.push_back(i);
-    }
-  }
-  return found;
-}
 }

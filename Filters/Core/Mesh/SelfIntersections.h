@@ -5,12 +5,8 @@
 
 #include "Core/Common/IndexedSurface.h"
 
-#include <vector>
-
 namespace volumic
 {
-class TriangleTree;
-
 /** Counters of an intersection search, for tests of its cost. */
 struct IntersectionCounters
 {
@@ -26,14 +22,6 @@ struct IntersectionCounters
  */
 int CountSelfIntersections(
   const IndexedSurface& surface, int limit = 0, IntersectionCounters* counters = nullptr);
-
-/**
- * Return the indices, in ascending order, of the triangles that intersect another surface or come
- * nearer to it than `tolerance`. Points are rounded to float.
- * @param tree tree of the other surface
- */
-std::vector<int> FindIntersecting(const IndexedSurface& surface, const IndexedSurface& other,
-  const TriangleTree& tree, double tolerance);
 }
 
 #endif

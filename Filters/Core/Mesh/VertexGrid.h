@@ -117,9 +117,6 @@ public:
   }
   static constexpr int LargestGroup = 64;
 
-  /** Return the number of allocated bricks, for tests of memory use. */
-  std::size_t NumberOfBricks() const { return this->NumberMade; }
-
 private:
   static constexpr int Bits = 3; ///< Bits of a coordinate within a brick.
   static constexpr int Mask = (1 << Bits) - 1;
