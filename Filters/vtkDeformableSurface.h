@@ -276,7 +276,7 @@ public:
   void SetInitializationToInputSurface() { this->SetInitialization(InputSurface); }
   /**
    * Set/Get the radius of growing seeds in world units (default 0: 1.2 delta of the coarsest
-   * level). It is clamped to 0.96 delta to the diagonal of the image.
+   * level). Limits: 0.96 delta, diagonal of the image.
    */
   volumicPropertyMacro(SeedRadius, double);
   ///@}
