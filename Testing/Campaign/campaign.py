@@ -81,10 +81,8 @@ def run_command(program, run, outcome, arguments=None, interrupt=None):
     outcome.seconds = usage.ru_utime + usage.ru_stime
     with open(error_file, encoding="utf-8", errors="replace") as error:
         outcome.messages = error.read()
-    if interrupt and outcome.status == -signal.SIGINT and not os.path.exists(
-            os.path.join(run.folder, "levels")):
-        outcome.status = 1  # interrupted while Python starts
-        outcome.messages = "interrupted at the start"
+    if interrupt and outcome.status == -signal.SIGINT:  # while Python starts or ends
+        outcome.status, outcome.messages = 1, "interrupted"
     elif outcome.status < 0:
         outcome.exceptions.append(
             f"not finished in {MOST_SECONDS} s" if outcome.seconds > MOST_SECONDS - 1
