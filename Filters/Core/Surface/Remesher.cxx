@@ -14,7 +14,7 @@ namespace
 {
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Least distance, in delta, from the midpoint of a split edge to an opposite vertex; if graded. */
+/** Least distance in delta of a split point from opposite vertices: uniform and graded edges. */
 constexpr float LeastHeight[] = { 0.02f, 0.05f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
