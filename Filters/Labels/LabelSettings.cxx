@@ -27,7 +27,7 @@ constexpr double MaximumTolerance = 1.0;
  */
 constexpr double FractionOfLargest = 0.625;
 
-/** Limit of this unit in thick slices: the Gaussian is at most this times Smoothing. */
+/** Limit in thick slices: the Gaussian is at most this times Smoothing, or the unit. */
 constexpr double MaximumUnit = 2.5;
 
 void CheckNumber(const char* name, double value)

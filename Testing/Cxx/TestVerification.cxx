@@ -130,8 +130,9 @@ TEST(Verification, RepairsSurfaceOfLevel)
 
 TEST(Verification, ReturnsValidSurfacesOfNoise)
 {
-  // Independent voxels, strong forces, little friction. Test snapshots, and cancelled runs.
-  for (unsigned seed = 0; seed < 4; ++seed)
+  // Independent voxels, strong forces, little friction. Test snapshots, and cancelled runs. With
+  // these seeds the surface intersects itself if displacements are not rolled back.
+  for (const unsigned seed : { 7u, 17u, 22u, 23u })
   {
     std::mt19937 random(seed);
     const auto value = [&random] { return std::generate_canonical<double, 24>(random); };
