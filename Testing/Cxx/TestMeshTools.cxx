@@ -3,6 +3,7 @@
 
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/RowCrossing.h"
+#include "Core/Mesh/VertexGrid.h"
 #include "CoreTestTools.h"
 
 using namespace volumic;
@@ -124,4 +125,179 @@ TEST(EnclosingComponents, ExcludeOwnComponent)
     (Lists{ { 0 }, { 0, 1, 2 }, { 0, 1 }, {}, {} }));
   EXPECT_EQ(EnclosingComponents(points, { 0, 1, 1, -1, 2 }, nested.size(), facesOf, threads),
     (Lists{ {}, { 0, 2 }, { 0 }, {}, {} }));
+}
+
+TEST(SurfaceMesh, AppendIsIndependentOfThreads)
+{
+  // More triangles than one task processes, with those of a vertex far apart in the list.
+  IndexedSurface surface = MakeSphere({ 0, 0, 0 }, 20, 0.5).ToIndexed();
+  const std::size_t n = surface.Triangles.size();
+  ASSERT_GT(n, 40000u);
+  LargeVector<Triangle> mixed(n);
+  constexpr std::size_t step = 7919; // A prime.
+  ASSERT_NE(n % step, 0u);
+  for (std::size_t i = 0; i < n; ++i)
+  {
+    mixed[i] = surface.Triangles[i * step % n];
+  }
+  surface.Triangles = mixed;
+  SurfaceMesh one;
+  one.Append(surface);
+  EXPECT_EQ(DescribeBrokenInvariant(one), "");
+  EXPECT_EQ(one.CountEulerCharacteristic(), 2);
+  Executor threads(3);
+  for (int run = 0; run < 5; ++run)
+  {
+    SurfaceMesh other;
+    other.Append(surface, threads);
+    ASSERT_EQ(one.Rings.size(), other.Rings.size());
+    for (int v = 0; v < one.Size(); ++v)
+    {
+      const Ring& ring = one.Rings[v];
+      ASSERT_TRUE(ring.Count == other.Rings[v].Count &&
+        std::equal(ring.Item, ring.Item + ring.Count, other.Rings[v].Item))
+        << v;
+    }
+  }
+}
+
+TEST(SurfaceMesh, ListingAndOrderAreIndependentOfThreads)
+{
+  // More vertices than one task processes, after many free slots.
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 10, 0.5);
+  const int removed = mesh.Size();
+  mesh.Append(DividedIcosahedron({ 3, -40, 2 }, 20, 0.4));
+  for (int v = 0; v < removed; ++v)
+  {
+    mesh.RemoveVertex(v);
+  }
+  ASSERT_GT(mesh.NumberOfVertices(), 20000);
+  Executor threads(3);
+  const auto expectSame = [](const IndexedSurface& one, const IndexedSurface& other)
+  {
+    EXPECT_EQ(one.Points, other.Points);
+    EXPECT_EQ(one.Triangles, other.Triangles);
+  };
+  expectSame(mesh.ToIndexed(threads), mesh.ToIndexed());
+  EXPECT_EQ(mesh.NumberOfFaces(threads), mesh.NumberOfFaces());
+  EXPECT_EQ(mesh.CountEulerCharacteristic(threads), 2);
+  const std::vector<int> order = SpaceFillingOrder(mesh, 0.7, threads);
+  EXPECT_EQ(order, SpaceFillingOrder(mesh, 0.7));
+  SurfaceMesh other = mesh;
+  mesh.Reorder(order, threads);
+  other.Reorder(order);
+  EXPECT_EQ(DescribeBrokenInvariant(mesh), "");
+  expectSame(mesh.ToIndexed(), other.ToIndexed());
+}
+
+TEST(SurfaceMesh, DetectsVerticesFarApart)
+{
+  SurfaceMesh mesh = MakeSphere({ 0, 0, 0 }, 6, 1.5);
+  const int other = mesh.Append(Icosahedron({ 20, 0, 0 }, 3));
+  for (const int from : { 0, 33, 100 })
+  {
+    // Distances to all others in edges, by breadth-first search.
+    std::vector<int> edges(mesh.Size(), -1);
+    std::vector<int> list(1, from);
+    edges[from] = 0;
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      const Ring& ring = mesh.Rings[list[i]];
+      for (int k = 0; k < ring.Count; ++k)
+      {
+        if (edges[ring.Item[k]] < 0)
+        {
+          edges[ring.Item[k]] = edges[list[i]] + 1;
+          list.push_back(ring.Item[k]);
+        }
+      }
+    }
+    for (int v = 0; v < mesh.Size(); ++v)
+    {
+      if (v != from)
+      {
+        EXPECT_EQ(mesh.AreFarApart(from, v), v >= other || edges[v] >= 4) << edges[v];
+      }
+    }
+  }
+}
+
+TEST(VertexGrid, FindsAllVerticesWithinRadius)
+{
+  const SurfaceMesh mesh = MakeSphere({ 10, 10, 10 }, 6, 0.7);
+  VertexGrid grid;
+  grid.Reset(Vector(3, 3, 3), Vector(12, 18, 18), 1.3f); // Part of the mesh is outside the grid.
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    grid.Insert(v, mesh.Position[v]);
+  }
+  grid.Remove(5);
+  grid.Insert(5, mesh.Position[5]);
+  for (int v = 0; v < mesh.Size(); v += 7)
+  {
+    std::set<int> found;
+    grid.Visit(mesh.Position[v], 1.9f, [&](int w) { found.insert(w); });
+    for (int w = 0; w < mesh.Size(); ++w)
+    {
+      if (SquaredDistance(mesh.Position[v], mesh.Position[w]) <= 1.9f * 1.9f)
+      {
+        EXPECT_TRUE(found.count(w)) << v << " " << w;
+      }
+    }
+  }
+}
+
+TEST(VertexGrid, LimitsMemory)
+{
+  // 10^15 cells of the requested size.
+  VertexGrid grid;
+  grid.Reset(Vector(0, 0, 0), Vector(1e5f, 1e5f, 1e5f), 1.f);
+  grid.Insert(0, Vector(9e4f, 1, 1));
+  int found = 0;
+  grid.Visit(Vector(9e4f, 1, 1), 1.f, [&](int) { ++found; });
+  EXPECT_EQ(found, 1);
+}
+
+TEST(VertexGrid, VisitOrderIsIndependentOfInsertionOrder)
+{
+  SurfaceMesh mesh = MakeSphere({ 20, 20, 20 }, 15, 0.7);
+  const auto visited = [](const VertexGrid& grid)
+  {
+    std::vector<int> found;
+    grid.VisitBox(Vector(-9, -9, -9), Vector(50, 50, 50), [&](int w) { found.push_back(w); });
+    return found;
+  };
+  VertexGrid all;
+  all.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
+  Executor threads(3);
+  // Some vertices are skipped. The last third is added to a nonempty grid.
+  const auto isPresent = [](int v) { return v % 5 != 2; };
+  const int third = mesh.Size() / 3;
+  for (int v = third - 1; v >= 0; --v)
+  {
+    if (isPresent(v))
+    {
+      all.Insert(v, mesh.Position[v]);
+    }
+  }
+  all.InsertAll(mesh.Position, static_cast<std::size_t>(third), isPresent, threads);
+  // In reverse order, each at another position first.
+  VertexGrid one;
+  one.Reset(Vector(0, 0, 0), Vector(40, 40, 40), 1.3f);
+  for (int v = mesh.Size() - 1; v >= 0; --v)
+  {
+    if (isPresent(v))
+    {
+      one.Insert(v, mesh.Position[v] * 0.9f);
+    }
+  }
+  for (int v = 0; v < mesh.Size(); ++v)
+  {
+    if (isPresent(v))
+    {
+      one.Move(v, mesh.Position[v]);
+    }
+  }
+  EXPECT_GT(visited(one).size(), 1000u);
+  EXPECT_EQ(visited(one), visited(all));
 }
