@@ -50,17 +50,27 @@ double SquaredDeficit(double value, double requested)
   return deficit > 0. ? deficit * deficit : 0.;
 }
 
-/** Return whether the plane of one triangle has a distance of more than `by` from the other one. */
-bool AreApart(const MeshTriangle& f, const MeshTriangle& g, double by)
+/** Return a lower bound of the distance of two triangles: of their boxes and from their planes. */
+double LeastDistance(const MeshTriangle& f, const MeshTriangle& g)
 {
-  const auto isBeyond = [by](const MeshTriangle& plane, const MeshTriangle& other)
+  const auto beyond = [](const MeshTriangle& plane, const MeshTriangle& other)
   {
     const VectorD normal = Normalized(NormalOf(plane));
     const auto along = [&](int k) { return Dot(normal, other.Corner[k] - plane.Corner[0]); };
     const auto [low, high] = std::minmax({ along(0), along(1), along(2) });
-    return low > by || high < -by;
+    return std::max(low, -high);
   };
-  return isBeyond(f, g) || isBeyond(g, f);
+  const Box both = BoxOf(f).Within(BoxOf(g));
+  const Vector between = Maximum(both.Low - both.High, Vector(0.f, 0.f, 0.f));
+  return std::max(
+    { static_cast<double>(std::sqrt(SquaredLength(between))), beyond(f, g), beyond(g, f) });
+}
+
+/** Return whether two faces of one interface have a common corner. */
+bool IsInOneSheet(const InterfaceMesh::Face& f, const InterfaceMesh::Face& g)
+{
+  return f.Behind == g.Behind && f.Front == g.Front &&
+    (g.Has(f.Vertex[0]) || g.Has(f.Vertex[1]) || g.Has(f.Vertex[2]));
 }
 
 /** Return six times the signed volume of a tetrahedron. */
@@ -125,9 +135,9 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
   const auto atGaps = CollectInSpans<int>(executor, candidates.size(), GapSpanSize,
     [&](std::size_t n, std::vector<int>& some)
     {
-      std::vector<int> near;
       bool isNarrow = false;
-      this->ForGapsAt(candidates[n], near, [&](double) { isNarrow = true; }); // found by both
+      std::vector<Gap> gaps = this->FindGaps(candidates[n], 0.);
+      this->ForGapsAt(candidates[n], gaps, 0., [&](double) { isNarrow = true; }); // found by both
       const std::array<int, 3>& v = faces[static_cast<std::size_t>(candidates[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
@@ -149,38 +159,63 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
   return vertices;
 }
 
-template <typename Visitor>
-void NearDegenerateRegions::ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const
+std::vector<NearDegenerateRegions::Gap> NearDegenerateRegions::FindGaps(int face, double move) const
 {
   const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
-  const std::array<int, 3>& v = here.Vertex;
-  const MeshTriangle triangle = TriangleOf(this->Mesh, v);
-  const VectorD normal = NormalOf(triangle);
-  const double requested = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
-  this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(requested)), near);
+  const MeshTriangle triangle = TriangleOf(this->Mesh, here.Vertex);
+  const double reach = this->NarrowGapAt(here) + 2. * move;
+  std::vector<int> near;
+  this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(reach)), near);
+  std::vector<Gap> gaps;
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
     const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
-    const bool isAdjacent = there.Behind == here.Behind && there.Front == here.Front &&
-      (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
-    if (isAdjacent && CosineOf(normal, NormalOf(facing)) > FlatCosine)
+    const double least = IsInOneSheet(here, there) ? 0. : LeastDistance(triangle, facing);
+    if (least < reach)
     {
-      continue; // The face itself, or a neighbour without a gap between them.
+      gaps.push_back({ other, least });
     }
-    if (AreApart(triangle, facing, requested))
+  }
+  return gaps;
+}
+
+template <typename Visitor>
+void NearDegenerateRegions::ForGapsAt(
+  int face, std::vector<Gap>& gaps, double moved, Visitor&& visit) const
+{
+  const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
+  const MeshTriangle triangle = TriangleOf(this->Mesh, here.Vertex);
+  const VectorD normal = NormalOf(triangle);
+  const double requested = this->NarrowGapAt(here);
+  for (Gap& gap : gaps)
+  {
+    if (gap.Width - 2. * moved > requested)
     {
       continue;
     }
-    const double squared = SquaredGapBetween(triangle, facing);
-    if (squared < requested * requested)
+    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(gap.Face)];
+    const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
+    const bool isInOneSheet = IsInOneSheet(here, there);
+    if (isInOneSheet && CosineOf(normal, NormalOf(facing)) > FlatCosine)
     {
-      visit(SquaredDeficit(std::sqrt(squared), requested));
+      continue; // The face itself, or a neighbour without a gap between them.
     }
+    const double width = std::sqrt(SquaredGapBetween(triangle, facing));
+    if (width < requested)
+    {
+      visit(SquaredDeficit(width, requested));
+    }
+    gap.Width = moved > 0. || isInOneSheet ? gap.Width : width;
   }
 }
 
-double NearDegenerateRegions::NarrownessAt(int v)
+double NearDegenerateRegions::NarrowGapAt(const InterfaceMesh::Face& face) const
+{
+  return NarrowGap * this->Edge * this->Mesh.SizeOf(face.Vertex[0], face.Vertex[1]);
+}
+
+double NearDegenerateRegions::NarrownessAt(int v, double moved)
 {
   double sum = 0.;
   const auto isOnLine = [this](int w)
@@ -190,7 +225,7 @@ double NearDegenerateRegions::NarrownessAt(int v)
     {
       const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
       sum += SquaredDeficit(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
-      this->ForGapsAt(f, this->Near, [&](double deficit) { sum += deficit; });
+      this->ForGapsAt(f, this->GapsAt[f], moved, [&](double deficit) { sum += deficit; });
       for (int k = 0; k < 3; ++k)
       {
         const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };
@@ -209,12 +244,12 @@ double NearDegenerateRegions::NarrownessAt(int v)
   return sum;
 }
 
-double NearDegenerateRegions::NarrownessOfImages()
+double NearDegenerateRegions::NarrownessOfImages(double moved)
 {
   double sum = 0.;
   for (const std::array<int, 2>& image : this->Images)
   {
-    sum += this->NarrownessAt(image[0]);
+    sum += this->NarrownessAt(image[0], moved);
   }
   return sum;
 }
@@ -231,19 +266,25 @@ void NearDegenerateRegions::MoveTo(const Vector& target)
 bool NearDegenerateRegions::TryMove(int v)
 {
   this->Mesh.FindImages(v, v, this->Images);
-  const double before = this->NarrownessOfImages();
+  const float edge = static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
+  this->GapsAt.clear();
+  for (const std::array<int, 2>& image : this->Images)
+  {
+    this->Mesh.ForFaces(
+      image[0], [&](int f) { this->GapsAt[f] = this->FindGaps(f, (LargestStep + Probe) * edge); });
+  }
+  const double before = this->NarrownessOfImages(0.);
   if (before == 0.)
   {
     return false;
   }
   const Vector position = this->Mesh.Position[static_cast<std::size_t>(v)];
-  const float edge = static_cast<float>(this->Edge) * this->Mesh.Size[static_cast<std::size_t>(v)];
   const auto differenceAlong = [&](const Vector& offset)
   {
     this->MoveTo(position + offset);
-    const double ahead = this->NarrownessOfImages();
+    const double ahead = this->NarrownessOfImages(2. * Probe * edge);
     this->MoveTo(position - offset);
-    const double behind = this->NarrownessOfImages();
+    const double behind = this->NarrownessOfImages(2. * Probe * edge);
     return static_cast<float>(behind - ahead);
   };
   const float probe = Probe * edge;
@@ -258,7 +299,7 @@ bool NearDegenerateRegions::TryMove(int v)
   {
     const Vector target = position + Normalized(slope) * (static_cast<float>(step) * edge);
     this->MoveTo(target);
-    const double after = this->NarrownessOfImages();
+    const double after = this->NarrownessOfImages((step + Probe) * edge);
     this->MoveTo(position);
     if (after < before && this->TryMoveTo(v, target))
     {

@@ -9,6 +9,7 @@
 #include "Core/Interfaces/InterfaceMesh.h"
 
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace volumic
@@ -38,12 +39,25 @@ public:
 private:
   /** Return the sorted vertices of narrow triangles and of triangles at narrow wedges and gaps. */
   std::vector<int> FindVertices(Executor& executor);
-  /** Call visit(SquaredDeficit()) for each narrow gap at a face. @param near scratch memory */
+  struct Gap
+  {
+    int Face;
+    double Width; ///< lower bound; 0 in one sheet
+  };
+  /** Return the width below which gaps at a face are opened. */
+  double NarrowGapAt(const InterfaceMesh::Face& face) const;
+  /** Return the gaps at a face that may be narrow after a vertex moves by a distance. */
+  std::vector<Gap> FindGaps(int face, double move) const;
+  /**
+   * Call visit(SquaredDeficit()) for each narrow gap at a face.
+   * @param gaps  of FindGaps(); they get their widths if `moved` is 0
+   * @param moved upper bound of the distance that a vertex has moved since
+   */
   template <typename Visitor>
-  void ForGapsAt(int face, std::vector<int>& near, Visitor&& visit) const;
+  void ForGapsAt(int face, std::vector<Gap>& gaps, double moved, Visitor&& visit) const;
   /** Return the sum of SquaredDeficit() of all triangles, wedges and gaps at a vertex. */
-  double NarrownessAt(int v);
-  double NarrownessOfImages();
+  double NarrownessAt(int v, double moved);
+  double NarrownessOfImages(double moved);
   bool TryMove(int v);
   bool TryMoveTo(int v, const Vector& requested);
   /** Return whether no voxel centre is misclassified when a vertex of a face moves. */
@@ -64,6 +78,7 @@ private:
   std::vector<int> Changed;
   std::vector<int> AtEdge;
   std::vector<int> Near;
+  std::map<int, std::vector<Gap>> GapsAt; ///< the faces of the current vertex
   std::vector<FaceCoordinates> Made;
 };
 }
