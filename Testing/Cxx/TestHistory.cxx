@@ -200,7 +200,8 @@ TEST(EvolutionHistory, LastRowDescribesSurfaceOfLevel)
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   std::size_t last = 0; // vertices after the last iteration
   evolution.AfterSweep = [&] { last = evolution.Result().Points.size(); };
-  RunBothLevels(evolution, SceneWithMissedBalls());
+  const LevelPair scene = SceneWithMissedBalls();
+  RunBothLevels(evolution, scene);
   const SurfaceResult surface = evolution.Result();
   ASSERT_NE(last, surface.Points.size()) << "otherwise the test is meaningless";
   ExpectDescribes(evolution.History().back(), surface);

@@ -15,7 +15,9 @@ namespace
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
 /** Least distance in delta of a split point from opposite vertices: uniform and graded edges. */
-constexpr float LeastHeight[] = { 0.02f, 0.05f };
+constexpr float LeastDistance[] = { 0.02f, 0.05f };
+/** Least distance in delta of the line through a split edge from opposite vertices. */
+constexpr float LeastHeight[] = { 0.f, 0.02f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
@@ -37,9 +39,17 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
   // tests fail for such needles, whereas a long edge does no harm. A local division splits often.
   const SurfaceState& s = this->State;
   const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
-  const float least = LeastHeight[s.Sizing.IsGraded() ? 1 : 0] * s.Sizing.ShortestEdge(u, v);
-  return SquaredDistance(middle, s.Mesh.Position[across.A]) < least * least ||
-    SquaredDistance(middle, s.Mesh.Position[across.B]) < least * least;
+  const Vector along = Normalized(s.Mesh.Position[v] - middle);
+  const int isGraded = s.Sizing.IsGraded() ? 1 : 0;
+  const float least = LeastDistance[isGraded] * s.Sizing.ShortestEdge(u, v);
+  const float lowest = LeastHeight[isGraded] * s.Sizing.ShortestEdge(u, v);
+  const auto isNear = [&](int w)
+  {
+    const Vector from = s.Mesh.Position[w] - middle;
+    return SquaredLength(from) < least * least ||
+      SquaredLength(Cross(from, along)) < lowest * lowest;
+  };
+  return isNear(across.A) || isNear(across.B);
 }
 
 bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)
