@@ -10,7 +10,6 @@
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Mesh/SurfaceMesh.h"
 #include "TemporaryFolder.h"
-#include "TestPrelude.h"
 #include "ThreadTestTools.h"
 
 #include <fstream>

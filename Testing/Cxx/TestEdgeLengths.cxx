@@ -5,7 +5,6 @@
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "Core/Surface/SizingField.h"
 #include "EvolutionTestTools.h"
-#include "TestPrelude.h"
 
 using namespace volumic;
 

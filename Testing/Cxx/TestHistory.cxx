@@ -202,9 +202,8 @@ TEST(EvolutionHistory, LastRowDescribesSurfaceOfLevel)
   evolution.AfterSweep = [&] { last = evolution.Result().Points.size(); };
   const LevelPair scene = SceneWithMissedBalls();
   RunBothLevels(evolution, scene);
-  const SurfaceResult surface = evolution.Result();
-  ASSERT_NE(last, surface.Points.size()) << "otherwise the test is meaningless";
-  ExpectDescribes(evolution.History().back(), surface);
+  ASSERT_NE(last, evolution.Result().Points.size()) << "otherwise the test is meaningless";
+  ExpectDescribes(evolution.History().back(), evolution.Result());
 }
 
 TEST(EvolutionHistory, SecondsAddUpToElapsedTime)

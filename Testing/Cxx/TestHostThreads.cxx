@@ -91,11 +91,10 @@ TEST(HostThreadsDeathTest, AreAsManyAsTheSystemAllows)
 {
   const auto work = []
   {
-    // A user without other processes; root has no limit.
+    // A user without other processes; root has no limit. LeakSanitizer starts a thread at exit.
     const rlimit most = { 1, 1 };
     const bool isLimited =
       (geteuid() != 0 || setuid(54321) == 0) && setrlimit(RLIMIT_NPROC, &most) == 0;
-    // At exit LeakSanitizer would need another thread.
     std::_Exit(isLimited && ThreadsAtWork(2) == 1 && ThreadsAtWork(0) == 1 ? 0 : 1);
   };
   testing::FLAGS_gtest_death_test_style = "threadsafe";

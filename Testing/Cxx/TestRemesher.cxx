@@ -46,10 +46,7 @@ TEST(Remesher, SplitAvoidsNeedles)
     LiveSurface bench(cap);
     std::vector<int> all = bench.All();
     const LargeVector<float> sizes(8, 1.f);
-    if (isGraded)
-    {
-      bench.Sizing = bench.Sizing.Graded(sizes, 1, 0.2f);
-    }
+    bench.Sizing = isGraded ? bench.Sizing.Graded(sizes, 1, 0.2f) : bench.Sizing;
     Remesher(bench, nullptr, true).Split(all);
     EXPECT_EQ(bench.Counts.Splits, splits);
     EXPECT_EQ((bench.RemeshFlags[0] & HasLongEdge) != 0, splits == 0) << "the edge is tested again";

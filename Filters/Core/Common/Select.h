@@ -32,9 +32,7 @@ std::vector<int> SelectIndices(Executor& executor, std::size_t n, IsSelected&& i
       }
       spans[b].assign(found, found + count);
     });
-  std::vector<int> selected;
-  Concatenate(executor, spans, selected);
-  return selected;
+  return Joined<int>(executor, spans);
 }
 
 /** Sort the items and remove duplicates. */

@@ -13,17 +13,14 @@ namespace volumic
 template <typename Values>
 void Sort(Executor& executor, Values& values)
 {
-#ifdef __SANITIZE_THREAD__
-  constexpr bool isSanitized = true; // It would not see how TBB passes values to other threads.
-#else
-  constexpr bool isSanitized = false;
-#endif
-  if (executor.NumberOfThreads() == 1 || isSanitized)
+#ifndef __SANITIZE_THREAD__ // It would not see how TBB passes values to other threads.
+  if (executor.NumberOfThreads() > 1)
   {
-    std::sort(values.begin(), values.end());
+    executor.Execute([&values] { tbb::parallel_sort(values.begin(), values.end()); });
     return;
   }
-  executor.Execute([&values] { tbb::parallel_sort(values.begin(), values.end()); });
+#endif
+  std::sort(values.begin(), values.end());
 }
 }
 

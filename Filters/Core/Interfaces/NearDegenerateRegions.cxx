@@ -50,29 +50,6 @@ double SquaredDeficit(double value, double requested)
   return deficit > 0. ? deficit * deficit : 0.;
 }
 
-/** Return a lower bound of the distance of two triangles: of their boxes and from their planes. */
-double LeastDistance(const MeshTriangle& f, const MeshTriangle& g)
-{
-  const auto beyond = [](const MeshTriangle& plane, const MeshTriangle& other)
-  {
-    const VectorD normal = Normalized(NormalOf(plane));
-    const auto along = [&](int k) { return Dot(normal, other.Corner[k] - plane.Corner[0]); };
-    const auto [low, high] = std::minmax({ along(0), along(1), along(2) });
-    return std::max(low, -high);
-  };
-  const Box both = BoxOf(f).Within(BoxOf(g));
-  const Vector between = Maximum(both.Low - both.High, Vector(0.f, 0.f, 0.f));
-  return std::max(
-    { static_cast<double>(std::sqrt(SquaredLength(between))), beyond(f, g), beyond(g, f) });
-}
-
-/** Return whether two faces of one interface have a common corner. */
-bool IsInOneSheet(const InterfaceMesh::Face& f, const InterfaceMesh::Face& g)
-{
-  return f.Behind == g.Behind && f.Front == g.Front &&
-    (g.Has(f.Vertex[0]) || g.Has(f.Vertex[1]) || g.Has(f.Vertex[2]));
-}
-
 /** Return six times the signed volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
@@ -136,8 +113,8 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
     [&](std::size_t n, std::vector<int>& some)
     {
       bool isNarrow = false;
-      std::vector<Gap> gaps = this->FindGaps(candidates[n], 0.);
-      this->ForGapsAt(candidates[n], gaps, 0., [&](double) { isNarrow = true; }); // found by both
+      this->ForGapsAt(candidates[n], this->FindGaps(candidates[n], 0.), 0.,
+        [&](double deficit) { isNarrow = isNarrow || deficit > 0.; }); // found by both
       const std::array<int, 3>& v = faces[static_cast<std::size_t>(candidates[n])].Vertex;
       some.insert(some.end(), v.begin(), isNarrow ? v.end() : v.begin());
     });
@@ -159,97 +136,74 @@ std::vector<int> NearDegenerateRegions::FindVertices(Executor& executor)
   return vertices;
 }
 
-std::vector<NearDegenerateRegions::Gap> NearDegenerateRegions::FindGaps(int face, double move) const
+NearDegenerateRegions::Gaps NearDegenerateRegions::FindGaps(int face, double move) const
 {
   const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
-  const MeshTriangle triangle = TriangleOf(this->Mesh, here.Vertex);
-  const double reach = this->NarrowGapAt(here) + 2. * move;
+  const std::array<int, 3>& v = here.Vertex;
+  const MeshTriangle triangle = TriangleOf(this->Mesh, v);
+  const double reach = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]) + 2. * move;
   std::vector<int> near;
   this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(reach)), near);
-  std::vector<Gap> gaps;
+  Gaps gaps;
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
+    const bool isAdjacent = there.Behind == here.Behind && there.Front == here.Front &&
+      (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
     const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
-    const double least = IsInOneSheet(here, there) ? 0. : LeastDistance(triangle, facing);
-    if (least < reach)
-    {
-      gaps.push_back({ other, least });
-    }
+    gaps.emplace_back(other, isAdjacent ? -1. : std::sqrt(SquaredGapBetween(triangle, facing)));
   }
   return gaps;
 }
 
 template <typename Visitor>
 void NearDegenerateRegions::ForGapsAt(
-  int face, std::vector<Gap>& gaps, double moved, Visitor&& visit) const
+  int face, const Gaps& gaps, double moved, Visitor&& visit) const
 {
-  const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
-  const MeshTriangle triangle = TriangleOf(this->Mesh, here.Vertex);
-  const VectorD normal = NormalOf(triangle);
-  const double requested = this->NarrowGapAt(here);
-  for (Gap& gap : gaps)
+  const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
+  const MeshTriangle triangle = TriangleOf(this->Mesh, v);
+  const double requested = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
+  for (const auto& [other, width] : gaps)
   {
-    if (gap.Width - 2. * moved > requested)
+    const MeshTriangle facing =
+      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex);
+    // A neighbour without a gap between them, or the face itself.
+    const bool isFlat = width < 0. && CosineOf(NormalOf(triangle), NormalOf(facing)) > FlatCosine;
+    if (!isFlat && width - 2. * moved <= requested)
     {
-      continue;
+      visit(SquaredDeficit(std::sqrt(SquaredGapBetween(triangle, facing)), requested));
     }
-    const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(gap.Face)];
-    const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
-    const bool isInOneSheet = IsInOneSheet(here, there);
-    if (isInOneSheet && CosineOf(normal, NormalOf(facing)) > FlatCosine)
-    {
-      continue; // The face itself, or a neighbour without a gap between them.
-    }
-    const double width = std::sqrt(SquaredGapBetween(triangle, facing));
-    if (width < requested)
-    {
-      visit(SquaredDeficit(width, requested));
-    }
-    gap.Width = moved > 0. || isInOneSheet ? gap.Width : width;
   }
 }
 
-double NearDegenerateRegions::NarrowGapAt(const InterfaceMesh::Face& face) const
+double NearDegenerateRegions::Narrowness(double moved)
 {
-  return NarrowGap * this->Edge * this->Mesh.SizeOf(face.Vertex[0], face.Vertex[1]);
-}
-
-double NearDegenerateRegions::NarrownessAt(int v, double moved)
-{
-  double sum = 0.;
   const auto isOnLine = [this](int w)
   { return this->Mesh.StratumOf[static_cast<std::size_t>(w)] != Stratum::Interface; };
-  this->Mesh.ForFaces(v,
-    [&](int f)
-    {
-      const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
-      sum += SquaredDeficit(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
-      this->ForGapsAt(f, this->GapsAt[f], moved, [&](double deficit) { sum += deficit; });
-      for (int k = 0; k < 3; ++k)
-      {
-        const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };
-        if (!isOnLine(edge[0]) || !isOnLine(edge[1]))
-        {
-          continue;
-        }
-        this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
-        if (this->Mesh.IsLine(this->AtEdge))
-        {
-          sum +=
-            SquaredDeficit(NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
-        }
-      }
-    });
-  return sum;
-}
-
-double NearDegenerateRegions::NarrownessOfImages(double moved)
-{
   double sum = 0.;
   for (const std::array<int, 2>& image : this->Images)
   {
-    sum += this->NarrownessAt(image[0], moved);
+    this->Mesh.ForFaces(image[0],
+      [&](int f)
+      {
+        const std::array<int, 3>& corners = this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex;
+        sum += SquaredDeficit(SmallestAngle(TriangleOf(this->Mesh, corners)), NarrowAngle);
+        this->ForGapsAt(f, this->GapsAt[f], moved, [&](double deficit) { sum += deficit; });
+        for (int k = 0; k < 3; ++k)
+        {
+          const std::array<int, 2> edge = { corners[k], corners[(k + 1) % 3] };
+          if (!isOnLine(edge[0]) || !isOnLine(edge[1]))
+          {
+            continue;
+          }
+          this->Mesh.FindFaces(edge[0], edge[1], this->AtEdge);
+          if (this->Mesh.IsLine(this->AtEdge))
+          {
+            sum +=
+              SquaredDeficit(NarrowestWedgeAt(this->Mesh, edge, this->AtEdge).Angle, NarrowWedge);
+          }
+        }
+      });
   }
   return sum;
 }
@@ -273,7 +227,7 @@ bool NearDegenerateRegions::TryMove(int v)
     this->Mesh.ForFaces(
       image[0], [&](int f) { this->GapsAt[f] = this->FindGaps(f, (LargestStep + Probe) * edge); });
   }
-  const double before = this->NarrownessOfImages(0.);
+  const double before = this->Narrowness(0.);
   if (before == 0.)
   {
     return false;
@@ -282,10 +236,9 @@ bool NearDegenerateRegions::TryMove(int v)
   const auto differenceAlong = [&](const Vector& offset)
   {
     this->MoveTo(position + offset);
-    const double ahead = this->NarrownessOfImages(2. * Probe * edge);
+    const double ahead = this->Narrowness(2. * Probe * edge);
     this->MoveTo(position - offset);
-    const double behind = this->NarrownessOfImages(2. * Probe * edge);
-    return static_cast<float>(behind - ahead);
+    return static_cast<float>(this->Narrowness(2. * Probe * edge) - ahead);
   };
   const float probe = Probe * edge;
   const Vector slope(differenceAlong(Vector(probe, 0.f, 0.f)),
@@ -299,7 +252,7 @@ bool NearDegenerateRegions::TryMove(int v)
   {
     const Vector target = position + Normalized(slope) * (static_cast<float>(step) * edge);
     this->MoveTo(target);
-    const double after = this->NarrownessOfImages((step + Probe) * edge);
+    const double after = this->Narrowness((step + Probe) * edge);
     this->MoveTo(position);
     if (after < before && this->TryMoveTo(v, target))
     {

@@ -10,6 +10,7 @@
 
 #include <functional>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace volumic
@@ -17,9 +18,9 @@ namespace volumic
 /**
  * Opens near-degenerate regions of interfaces: triangles with small angles, narrow dihedral wedges
  * at junction lines, and narrow gaps between triangles (SquaredGapBetween). Vertices are moved one
- * after another along the gradient of a narrowness measure, in small steps and within a maximum
- * distance of their initial positions. A move is made only if no triangles intersect, no voxel
- * centre is misclassified by more than a tolerance, and the volumes of objects are preserved.
+ * after another along the gradient of a narrowness measure, up to a maximum distance. A move is
+ * made only if no triangles intersect, no voxel centre is misclassified by more than a tolerance,
+ * and the volumes of objects are preserved.
  */
 class NearDegenerateRegions
 {
@@ -39,25 +40,15 @@ public:
 private:
   /** Return the sorted vertices of narrow triangles and of triangles at narrow wedges and gaps. */
   std::vector<int> FindVertices(Executor& executor);
-  struct Gap
-  {
-    int Face;
-    double Width; ///< lower bound; 0 in one sheet
-  };
-  /** Return the width below which gaps at a face are opened. */
-  double NarrowGapAt(const InterfaceMesh::Face& face) const;
-  /** Return the gaps at a face that may be narrow after a vertex moves by a distance. */
-  std::vector<Gap> FindGaps(int face, double move) const;
-  /**
-   * Call visit(SquaredDeficit()) for each narrow gap at a face.
-   * @param gaps  of FindGaps(); they get their widths if `moved` is 0
-   * @param moved upper bound of the distance that a vertex has moved since
-   */
+  /** Faces and their distances from a face; -1 for its neighbours in one sheet. */
+  using Gaps = std::vector<std::pair<int, double>>;
+  /** Return the gaps that are narrow at a face, or may be after a vertex moves by a distance. */
+  Gaps FindGaps(int face, double move) const;
+  /** Call visit(SquaredDeficit()) for gaps that may be narrow, after such a move. */
   template <typename Visitor>
-  void ForGapsAt(int face, std::vector<Gap>& gaps, double moved, Visitor&& visit) const;
-  /** Return the sum of SquaredDeficit() of all triangles, wedges and gaps at a vertex. */
-  double NarrownessAt(int v, double moved);
-  double NarrownessOfImages(double moved);
+  void ForGapsAt(int face, const Gaps& gaps, double moved, Visitor&& visit) const;
+  /** Return the sum of SquaredDeficit() of all triangles, wedges and gaps at the images. */
+  double Narrowness(double moved);
   bool TryMove(int v);
   bool TryMoveTo(int v, const Vector& requested);
   /** Return whether no voxel centre is misclassified when a vertex of a face moves. */
@@ -78,7 +69,7 @@ private:
   std::vector<int> Changed;
   std::vector<int> AtEdge;
   std::vector<int> Near;
-  std::map<int, std::vector<Gap>> GapsAt; ///< the faces of the current vertex
+  std::map<int, Gaps> GapsAt; ///< faces of the current vertex
   std::vector<FaceCoordinates> Made;
 };
 }

@@ -17,11 +17,10 @@ double SquaredDistanceToSegment(const VectorD& p, const VectorD& a, const Vector
   return SquaredLength(p - a - along * fraction);
 }
 
-/** Return the distance of two segments if the nearest points are no ends, otherwise a negative
- * value. */
-double SquaredDistanceBetweenEnds(
+double SquaredDistanceOfSegments(
   const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
+  // Nearest points of the two lines if they lie within both segments, else at an end.
   const VectorD first = b - a;
   const VectorD second = d - c;
   const double ff = SquaredLength(first);
@@ -38,13 +37,14 @@ double SquaredDistanceBetweenEnds(
       return SquaredLength(between + second * t - first * s);
     }
   }
-  return -1.;
+  return std::min({ SquaredDistanceToSegment(a, c, d), SquaredDistanceToSegment(b, c, d),
+    SquaredDistanceToSegment(c, a, b), SquaredDistanceToSegment(d, a, b) });
+}
 }
 
-/** Return the distance of a point from a plane if its projection is in a triangle, otherwise < 0.
- */
-double SquaredHeightAbove(const VectorD& p, const VectorD* t)
+double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
 {
+  // The projection on the plane if it lies in the triangle, else the nearest point of an edge.
   const VectorD normal = Cross(t[1] - t[0], t[2] - t[0]);
   const double squaredArea = SquaredLength(normal);
   bool inside = squaredArea > 0.;
@@ -52,60 +52,29 @@ double SquaredHeightAbove(const VectorD& p, const VectorD* t)
   {
     inside = Dot(Cross(t[(k + 1) % 3] - t[k], p - t[k]), normal) >= 0.;
   }
-  const double height = Dot(normal, p - t[0]);
-  return inside ? height * height / squaredArea : -1.;
-}
-
-/** The distances of corners of a triangle from edges of another one, each computed when needed. */
-class CornerDistances
-{
-public:
-  CornerDistances(const VectorD* corners, const VectorD* other) : Corners(corners), Other(other) {}
-
-  double ToEdge(int corner, int edge)
+  if (inside)
   {
-    double& known = this->Known[corner][edge];
-    if (known < 0.)
-    {
-      known = SquaredDistanceToSegment(
-        this->Corners[corner], this->Other[edge], this->Other[(edge + 1) % 3]);
-    }
-    return known;
+    const double height = Dot(normal, p - t[0]);
+    return height * height / squaredArea;
   }
-
-  double ToTriangle(int corner)
-  {
-    const double height = SquaredHeightAbove(this->Corners[corner], this->Other);
-    return height >= 0.
-      ? height
-      : std::min({ this->ToEdge(corner, 0), this->ToEdge(corner, 1), this->ToEdge(corner, 2) });
-  }
-
-private:
-  const VectorD* Corners;
-  const VectorD* Other;
-  double Known[3][3] = { { -1., -1., -1. }, { -1., -1., -1. }, { -1., -1., -1. } };
-};
-}
-
-double SquaredDistanceToTriangle(const VectorD& p, const VectorD* t)
-{
-  return CornerDistances(&p, t).ToTriangle(0);
+  return std::min({ SquaredDistanceToSegment(p, t[0], t[1]),
+    SquaredDistanceToSegment(p, t[1], t[2]), SquaredDistanceToSegment(p, t[2], t[0]) });
 }
 
 double SquaredGapBetween(const MeshTriangle& f, const MeshTriangle& g)
 {
   const auto has = [](const MeshTriangle& triangle, int v)
   { return std::find(triangle.Vertex, triangle.Vertex + 3, v) != triangle.Vertex + 3; };
-  CornerDistances ofF(f.Corner, g.Corner);
-  CornerDistances ofG(g.Corner, f.Corner);
   bool isInG[3];
   double nearest = std::numeric_limits<double>::max();
   for (int k = 0; k < 3; ++k)
   {
     isInG[k] = has(g, f.Vertex[k]);
-    nearest = isInG[k] ? nearest : std::min(nearest, ofF.ToTriangle(k));
-    nearest = has(f, g.Vertex[k]) ? nearest : std::min(nearest, ofG.ToTriangle(k));
+    nearest =
+      isInG[k] ? nearest : std::min(nearest, SquaredDistanceToTriangle(f.Corner[k], g.Corner));
+    nearest = has(f, g.Vertex[k])
+      ? nearest
+      : std::min(nearest, SquaredDistanceToTriangle(g.Corner[k], f.Corner));
   }
   for (int k = 0; k < 3; ++k)
   {
@@ -118,12 +87,8 @@ double SquaredGapBetween(const MeshTriangle& f, const MeshTriangle& g)
       {
         continue;
       }
-      const int end = (l + 1) % 3;
-      const double between =
-        SquaredDistanceBetweenEnds(f.Corner[k], f.Corner[next], g.Corner[l], g.Corner[end]);
-      nearest = between >= 0. ? std::min(nearest, between)
-                              : std::min({ nearest, ofF.ToEdge(k, l), ofF.ToEdge(next, l),
-                                  ofG.ToEdge(l, k), ofG.ToEdge(end, k) });
+      nearest = std::min(nearest,
+        SquaredDistanceOfSegments(f.Corner[k], f.Corner[next], g.Corner[l], g.Corner[(l + 1) % 3]));
     }
   }
   return nearest;

@@ -14,10 +14,10 @@ namespace
 {
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Least distance in delta of a split point from opposite vertices: uniform and graded edges. */
-constexpr float LeastDistance[] = { 0.02f, 0.05f };
-/** Least distance in delta of the line through a split edge from opposite vertices. */
-constexpr float LeastHeight[] = { 0.f, 0.02f };
+/** Least distances in delta of the vertices opposite a split edge from the midpoint and the line.
+ */
+constexpr float UniformNeedle[] = { 0.02f, 0.f };
+constexpr float GradedNeedle[] = { 0.05f, 0.02f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
@@ -40,14 +40,13 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
   const SurfaceState& s = this->State;
   const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
   const Vector along = Normalized(s.Mesh.Position[v] - middle);
-  const int isGraded = s.Sizing.IsGraded() ? 1 : 0;
-  const float least = LeastDistance[isGraded] * s.Sizing.ShortestEdge(u, v);
-  const float lowest = LeastHeight[isGraded] * s.Sizing.ShortestEdge(u, v);
+  const float* least = s.Sizing.IsGraded() ? GradedNeedle : UniformNeedle;
+  const float delta = s.Sizing.ShortestEdge(u, v);
   const auto isNear = [&](int w)
   {
     const Vector from = s.Mesh.Position[w] - middle;
-    return SquaredLength(from) < least * least ||
-      SquaredLength(Cross(from, along)) < lowest * lowest;
+    return SquaredLength(from) < least[0] * delta * (least[0] * delta) ||
+      SquaredLength(Cross(from, along)) < least[1] * delta * (least[1] * delta);
   };
   return isNear(across.A) || isNear(across.B);
 }

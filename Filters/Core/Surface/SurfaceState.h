@@ -26,26 +26,17 @@ struct EditCounts
   int Flips = 0;
   int Removed = 0; ///< Deleted components.
 
-  EditCounts operator-(const EditCounts& less) const
+  EditCounts& Add(const EditCounts& more, int factor = 1)
   {
-    EditCounts counts = less;
     for (int EditCounts::*count : { &EditCounts::Merges, &EditCounts::Cuts, &EditCounts::Splits,
            &EditCounts::Collapses, &EditCounts::Flips, &EditCounts::Removed })
     {
-      counts.*count = this->*count - less.*count;
+      this->*count += factor * more.*count;
     }
-    return counts;
-  }
-  EditCounts& operator+=(const EditCounts& more)
-  {
-    this->Merges += more.Merges;
-    this->Cuts += more.Cuts;
-    this->Splits += more.Splits;
-    this->Collapses += more.Collapses;
-    this->Flips += more.Flips;
-    this->Removed += more.Removed;
     return *this;
   }
+  EditCounts operator-(const EditCounts& less) const { return EditCounts(*this).Add(less, -1); }
+  EditCounts& operator+=(const EditCounts& more) { return this->Add(more); }
 };
 
 /**
