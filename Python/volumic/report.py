@@ -150,7 +150,7 @@ def describe_print(options: Namespace, surfaces: Sequence[Any], unit: str) -> st
         if thickness is not None:
             in_delta = vtk_to_numpy(thickness) / delta[0, 0]
             least = in_delta[in_delta > 0.501].min(initial=8)
-            line += (f"; minimum thickness of walls and gaps {'at least ' * (least > 7.99)}"
+            line += (f"; minimum thickness of walls and gaps {'at least ' * bool(least > 7.99)}"
                      f"{least * delta[0, 0]:.4g}")
     return line
 

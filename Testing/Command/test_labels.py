@@ -117,7 +117,7 @@ class OutputsTest(LabelsTest):
         self.rejects(r"b.stl: a .stl file stores one surface, not 4; give a folder "
                      r"\(.*b/ --format stl\), a file with several surfaces \(.*b.vtm, .glb, "
                      r".3mf\) or with one mesh of all labels \(.*b.vtp, .vtk, .vtu, .inp, .msh, "
-                     ".smesh, .poly\), or set --merge", volume,
+                     r".smesh, .poly\), or set --merge", volume,
                      self.path("b.stl"), "--labels", "all")
         self.assertFalse(os.path.exists(self.path("b.stl")))
 

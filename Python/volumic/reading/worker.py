@@ -106,6 +106,7 @@ def serve(number, caller):
         spans = _write(buffers)
     except Exception as error:  # pylint: disable=broad-except
         os.ftruncate(number, _HEAD)
+        failed, _file = _file, open(number, "r+b", closefd=False)  # `failed` would write the rest
         if getattr(error, "errno", 0) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             error.filename = tempfile.gettempdir()
         data, spans = pickle.dumps(failure_of(error)), []
@@ -132,8 +133,7 @@ def _write(buffers):
 
 def set_current_item(item):
     """Set the file or slice that is reported after a crash."""
-    text = str(item).encode()[:_HEAD - 16]
-    os.pwrite(_file.fileno(), text.ljust(_HEAD - 16, b"\0"), 16)
+    os.pwrite(_file.fileno(), str(item).encode()[:_HEAD - 16].ljust(_HEAD - 16, b"\0"), 16)
 
 
 def captured_output():
