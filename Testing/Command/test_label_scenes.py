@@ -156,5 +156,5 @@ class ScenesTest(LabelsTest):
     def test_assimp(self):
         self.run_command(self.map_file(), self.path("a.3mf"), "--labels", "all")
         printed = subprocess.run(["assimp", "info", self.path("a.3mf")], capture_output=True,
-                                 text=True, check=True).stdout
+                                 text=True, check=True, errors="replace").stdout
         self.assertRegex(printed, rf"Faces: +{len(self.three_mf('a.3mf')[3])}\n")
