@@ -141,6 +141,11 @@ MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& ver
   return triangle;
 }
 
+MeshTriangle TriangleAt(const InterfaceMesh& mesh, int face)
+{
+  return TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(face)].Vertex);
+}
+
 InterfaceClearance::InterfaceClearance(const InterfaceMesh& mesh, double tolerance)
   : Mesh(mesh), Tolerance(tolerance)
 {
@@ -204,15 +209,12 @@ void InterfaceClearance::FindNear(const Box& box, std::vector<int>& near) const
 
 int InterfaceClearance::FindIntersecting(int face, std::vector<int>& near) const
 {
-  const MeshTriangle triangle =
-    TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
+  const MeshTriangle triangle = TriangleAt(this->Mesh, face);
   this->FindNear(this->BoxOf(face), near);
   for (const int other : near)
   {
     if (other != face &&
-      TrianglesIntersect(triangle,
-        TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex),
-        this->Tolerance))
+      TrianglesIntersect(triangle, TriangleAt(this->Mesh, other), this->Tolerance))
     {
       return other;
     }
@@ -366,12 +368,10 @@ bool InterfaceClearance::PassAny(
       {
         continue; // The face has no predecessor at this edge.
       }
-      const MeshTriangle before =
-        TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(*old)].Vertex);
+      const MeshTriangle before = TriangleAt(this->Mesh, *old);
       for (const int f : atEdge)
       {
-        const MeshTriangle other =
-          TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+        const MeshTriangle other = TriangleAt(this->Mesh, f);
         if (!isReplaced(f) && HavePassed(u, v, { before, other }, { face, other }))
         {
           return true;

@@ -21,6 +21,7 @@ constexpr double LeastSheetCosine = 0.1;
 
 /** Return the triangle of three vertices, which need not be a face of the mesh. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
+MeshTriangle TriangleAt(const InterfaceMesh& mesh, int face);
 
 /** An existing or proposed face with its corner positions. */
 struct FaceCoordinates : MeshTriangle

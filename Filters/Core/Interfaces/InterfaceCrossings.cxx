@@ -151,7 +151,7 @@ private:
     {
       candidates.push_back(*f);
       const Box box = this->BoxOf(*f);
-      const MeshTriangle triangle = this->TriangleAt(*f);
+      const MeshTriangle triangle = TriangleAt(this->Mesh, *f);
       for (const int* g = f + 1; g != last; ++g)
       {
         const Box other = this->BoxOf(*g);
@@ -161,17 +161,12 @@ private:
         }
         // Test each pair once: in the first cube that both faces overlap.
         if (this->CubeOf(box.Within(other).Low) == cube &&
-          TrianglesIntersect(triangle, this->TriangleAt(*g), this->Tolerance))
+          TrianglesIntersect(triangle, TriangleAt(this->Mesh, *g), this->Tolerance))
         {
           pairs.push_back({ *f, *g });
         }
       }
     }
-  }
-
-  MeshTriangle TriangleAt(int face) const
-  {
-    return TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex);
   }
 
   bool AreOneSheet(const int* first, const int* last) const

@@ -77,8 +77,7 @@ private:
   bool HasTurned(int f) const
   {
     const MeshTriangle old = this->FaceBefore(f);
-    const MeshTriangle now =
-      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(f)].Vertex);
+    const MeshTriangle now = TriangleAt(this->Mesh, f);
     const VectorD before = NormalOf(old);
     const VectorD after = NormalOf(now);
     const auto isDegraded = [&]
@@ -165,8 +164,7 @@ private:
       {
         if (other != face &&
           HavePassed(u, v, { this->FaceBefore(face), this->FaceBefore(other) },
-            { TriangleOf(this->Mesh, corners),
-              TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex) }))
+            { TriangleOf(this->Mesh, corners), TriangleAt(this->Mesh, other) }))
         {
           return other;
         }

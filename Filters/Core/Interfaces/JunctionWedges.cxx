@@ -12,11 +12,7 @@ namespace volumic
 JunctionWedge NarrowestWedgeAt(
   const InterfaceMesh& mesh, const std::array<int, 2>& edge, const std::vector<int>& faces)
 {
-  const auto across = [&](int f)
-  {
-    return AcrossEdge(
-      TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex), edge[0], edge[1]);
-  };
+  const auto across = [&](int f) { return AcrossEdge(TriangleAt(mesh, f), edge[0], edge[1]); };
   // The pair with the smallest angle is always a pair of neighbouring faces.
   JunctionWedge narrowest;
   for (std::size_t n = 0; n < faces.size(); ++n)

@@ -165,11 +165,9 @@ std::vector<MismatchedVoxel> FindMismatchedVoxels(const InterfaceMesh& mesh, con
         const VectorD centre(at[0] * step[0], at[1] * step[1], at[2] * step[2]);
         clearance.FindNear({ Vector(centre), Vector(centre) }, near);
         found[n].IsFar = std::none_of(near.begin(), near.end(),
-          [&](int f)
-          {
-            const MeshTriangle face =
-              TriangleOf(mesh, mesh.Faces[static_cast<std::size_t>(f)].Vertex);
-            return SquaredDistanceToTriangle(centre, face.Corner) <= tolerance * tolerance;
+          [&](int f) {
+            return SquaredDistanceToTriangle(centre, TriangleAt(mesh, f).Corner) <=
+              tolerance * tolerance;
           });
       }
     });

@@ -50,6 +50,16 @@ double SquaredDeficit(double value, double requested)
   return deficit > 0. ? deficit * deficit : 0.;
 }
 
+/** Return whether a triangle has a distance of more than `by` from the plane of another one. */
+bool IsBeyond(const MeshTriangle& plane, const MeshTriangle& other, double by)
+{
+  const VectorD normal = Normalized(NormalOf(plane));
+  const auto [low, high] = std::minmax({ Dot(normal, other.Corner[0] - plane.Corner[0]),
+    Dot(normal, other.Corner[1] - plane.Corner[0]),
+    Dot(normal, other.Corner[2] - plane.Corner[0]) });
+  return low > by || high < -by;
+}
+
 /** Return six times the signed volume of a tetrahedron. */
 double VolumeOf(const VectorD& a, const VectorD& b, const VectorD& c, const VectorD& d)
 {
@@ -141,17 +151,20 @@ NearDegenerateRegions::Gaps NearDegenerateRegions::FindGaps(int face, double mov
   const InterfaceMesh::Face& here = this->Mesh.Faces[static_cast<std::size_t>(face)];
   const std::array<int, 3>& v = here.Vertex;
   const MeshTriangle triangle = TriangleOf(this->Mesh, v);
-  const double reach = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]) + 2. * move;
+  const double reach = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]) + move;
   std::vector<int> near;
   this->Clearance.FindNear(BoxOf(triangle).Grown(static_cast<float>(reach)), near);
   Gaps gaps;
   for (const int other : near)
   {
     const InterfaceMesh::Face& there = this->Mesh.Faces[static_cast<std::size_t>(other)];
+    const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
     const bool isAdjacent = there.Behind == here.Behind && there.Front == here.Front &&
       (there.Has(v[0]) || there.Has(v[1]) || there.Has(v[2]));
-    const MeshTriangle facing = TriangleOf(this->Mesh, there.Vertex);
-    gaps.emplace_back(other, isAdjacent ? -1. : std::sqrt(SquaredGapBetween(triangle, facing)));
+    if (isAdjacent || !(IsBeyond(triangle, facing, reach) || IsBeyond(facing, triangle, reach)))
+    {
+      gaps.emplace_back(other, isAdjacent ? -1. : std::sqrt(SquaredGapBetween(triangle, facing)));
+    }
   }
   return gaps;
 }
@@ -160,13 +173,12 @@ template <typename Visitor>
 void NearDegenerateRegions::ForGapsAt(
   int face, const Gaps& gaps, double moved, Visitor&& visit) const
 {
-  const std::array<int, 3>& v = this->Mesh.Faces[static_cast<std::size_t>(face)].Vertex;
-  const MeshTriangle triangle = TriangleOf(this->Mesh, v);
-  const double requested = NarrowGap * this->Edge * this->Mesh.SizeOf(v[0], v[1]);
+  const MeshTriangle triangle = TriangleAt(this->Mesh, face);
+  const double requested =
+    NarrowGap * this->Edge * this->Mesh.SizeOf(triangle.Vertex[0], triangle.Vertex[1]);
   for (const auto& [other, width] : gaps)
   {
-    const MeshTriangle facing =
-      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(other)].Vertex);
+    const MeshTriangle facing = TriangleAt(this->Mesh, other);
     // A neighbour without a gap between them, or the face itself.
     const bool isFlat = width < 0. && CosineOf(NormalOf(triangle), NormalOf(facing)) > FlatCosine;
     if (!isFlat && width - 2. * moved <= requested)
@@ -308,8 +320,7 @@ bool NearDegenerateRegions::AddGains()
   for (std::size_t n = 0; n < this->Made.size(); ++n)
   {
     const FaceCoordinates& face = this->Made[n];
-    const MeshTriangle old =
-      TriangleOf(this->Mesh, this->Mesh.Faces[static_cast<std::size_t>(this->Changed[n])].Vertex);
+    const MeshTriangle old = TriangleAt(this->Mesh, this->Changed[n]);
     double volume = 0.;
     for (int k = 0; k < 3; ++k)
     {
