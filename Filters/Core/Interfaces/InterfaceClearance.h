@@ -19,7 +19,7 @@ namespace volumic
 /** Least cosine between the normals of a sheet and their mean (84 degrees). */
 constexpr double LeastSheetCosine = 0.1;
 
-/** Return the triangle of three vertices, which need not be a face of the mesh. */
+/** Return the triangle of three vertices, which need not be a face of the mesh, or of a face. */
 MeshTriangle TriangleOf(const InterfaceMesh& mesh, const std::array<int, 3>& vertices);
 MeshTriangle TriangleAt(const InterfaceMesh& mesh, int face);
 

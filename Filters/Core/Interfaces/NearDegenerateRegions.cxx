@@ -179,7 +179,7 @@ void NearDegenerateRegions::ForGapsAt(
   for (const auto& [other, width] : gaps)
   {
     const MeshTriangle facing = TriangleAt(this->Mesh, other);
-    // A neighbour without a gap between them, or the face itself.
+    // The face itself, or a flat neighbour. Distances of two faces that move change twice as much.
     const bool isFlat = width < 0. && CosineOf(NormalOf(triangle), NormalOf(facing)) > FlatCosine;
     if (!isFlat && width - 2. * moved <= requested)
     {

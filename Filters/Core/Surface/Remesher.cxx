@@ -14,8 +14,7 @@ namespace
 {
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Least distances in delta of the vertices opposite a split edge from the midpoint and the line.
- */
+/** Least distances in delta of vertices opposite a split edge from its midpoint and its line. */
 constexpr float UniformNeedle[] = { 0.02f, 0.f };
 constexpr float GradedNeedle[] = { 0.05f, 0.02f };
 /** Number of rollbacks after which a vertex is stuck. */

@@ -106,7 +106,7 @@ def serve(number, caller):
         spans = _write(buffers)
     except Exception as error:  # pylint: disable=broad-except
         os.ftruncate(number, _HEAD)
-        failed, _file = _file, open(number, "r+b", closefd=False)  # `failed` would write the rest
+        failed, _file = _file, open(number, "r+b", closefd=False)  # its end would write the rest
         if getattr(error, "errno", 0) in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
             error.filename = tempfile.gettempdir()
         data, spans = pickle.dumps(failure_of(error)), []
