@@ -201,19 +201,24 @@ Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double
   // voxel.
   constexpr double precision = 0.03;
   const auto mesh = std::make_shared<Mesh>();
-  // A point of the object, which users of this mesher provide, is found outside the measured work.
+  // Points of the surface and of the object, which users of this mesher provide, are found outside
+  // the measured work. Without the former it often meshes a small part only.
   const ImplicitField field(image, isoValue);
-  vtkNew<vtkStaticPointLocator> points;
-  points->SetDataSet(largest);
-  const Point inside =
-    field.VoxelBeside(largest->GetPoint(points->FindClosestPoint(largest->GetCenter())));
+  const support::TriangleSurface known = TrianglesOf(largest);
+  const auto pointAt = [&known](std::size_t k) { return known.Points[k].data(); };
+  std::vector<Point> given;
+  for (std::size_t k = 0; k < known.Points.size(); k += 500)
+  {
+    given.emplace_back(pointAt(k)[0], pointAt(k)[1], pointAt(k)[2]);
+  }
+  const Point inside = field.VoxelBeside(pointAt(0));
   const auto work = [=]()
   {
     const double enclosing = field.EnclosingRadius();
     const CGAL::Implicit_surface_3<Traits, ImplicitField> surface(
       field, Traits::Sphere_3(inside, enclosing * enclosing), precision / enclosing);
     const CGAL::Surface_mesh_default_criteria_3<Triangulation> criteria(30.0, radius, 0.5 * radius);
-    Triangulation triangulation;
+    Triangulation triangulation(given.begin(), given.end());
     CGAL::Complex_2_in_triangulation_3<Triangulation> complex(triangulation);
     CGAL::make_surface_mesh(complex, surface, criteria, CGAL::Manifold_tag());
     mesh->clear();
