@@ -34,11 +34,11 @@ int SetIntoAFace(SurfaceState& s, int u)
 
 TEST(Remesher, SplitAvoidsNeedles)
 {
-  // A tetrahedron with one edge that is too long and a vertex near that edge or its midpoint.
+  // A tetrahedron with one edge that is too long and a vertex near its midpoint or an end.
   for (const auto& [x, height, isGraded, splits] :
     std::vector<std::tuple<double, double, bool, int>>{ { 0, 0.01, false, 0 },
-      { 0, 0.04, false, 1 }, { 0, 0.04, true, 0 }, { 0, 0.06, true, 1 }, { -1.1, 0.01, true, 0 },
-      { -1.1, 0.01, false, 1 }, { -1.1, 0.03, true, 1 } })
+      { 0, 0.04, false, 1 }, { 0, 0.04, true, 0 }, { 0, 0.06, true, 1 }, { -1.28, 0.01, true, 0 },
+      { -1.28, 0.01, false, 1 }, { -1.28, 0.03, true, 1 }, { -1.1, 0.01, true, 1 } })
   {
     IndexedSurface cap;
     cap.Points = { { -1.3, 0, 0 }, { 1.3, 0, 0 }, { x, 0, height }, { 0, -1, -1 } };

@@ -14,9 +14,9 @@ namespace
 {
 /** Maximum recursion depth of SplitEdge. */
 constexpr int DeepestSplit = 4;
-/** Least distances in delta of vertices opposite a split edge from its midpoint and its line. */
+/** Least distances in delta of vertices opposite a split edge from its midpoint and its ends. */
 constexpr float UniformNeedle[] = { 0.02f, 0.f };
-constexpr float GradedNeedle[] = { 0.05f, 0.02f };
+constexpr float GradedNeedle[] = { 0.05f, 0.03f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
@@ -35,17 +35,19 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
 {
   // If the longest edge of a triangle cannot be split, the two others would be split in turn. Each
   // midpoint would be a quarter as far from the last one, until all are collinear. Intersection
-  // tests fail for such needles, whereas a long edge does no harm. A local division splits often.
+  // tests fail for such needles; a local division splits often. Few splits may be refused: the
+  // search for pairs misses faces of long edges.
   const SurfaceState& s = this->State;
-  const Vector middle = (s.Mesh.Position[u] + s.Mesh.Position[v]) * 0.5f;
-  const Vector along = Normalized(s.Mesh.Position[v] - middle);
   const float* least = s.Sizing.IsGraded() ? GradedNeedle : UniformNeedle;
   const float delta = s.Sizing.ShortestEdge(u, v);
+  const Vector& first = s.Mesh.Position[u];
+  const Vector& last = s.Mesh.Position[v];
   const auto isNear = [&](int w)
   {
-    const Vector from = s.Mesh.Position[w] - middle;
-    return SquaredLength(from) < least[0] * delta * (least[0] * delta) ||
-      SquaredLength(Cross(from, along)) < least[1] * delta * (least[1] * delta);
+    const auto isWithin = [&](const Vector& from, float distance)
+    { return SquaredDistance(s.Mesh.Position[w], from) < distance * delta * (distance * delta); };
+    return isWithin((first + last) * 0.5f, least[0]) || isWithin(first, least[1]) ||
+      isWithin(last, least[1]);
   };
   return isNear(across.A) || isNear(across.B);
 }
