@@ -101,9 +101,9 @@ struct Fuzzer : FuzzedDataProvider
       data->AddArray(type == owner ? Array("Voxels", n, VTK_FLOAT, pattern) : nullptr);
       data->SetActiveScalars("Voxels");
     }
-    for (const char* name : { "LabelValues", "LabelColors", "LabelNames", "Unit" })
+    for (const auto& [name, type] : { std::pair("LabelValues", VTK_DOUBLE),
+           { "LabelColors", VTK_DOUBLE }, { "LabelNames", VTK_STRING }, { "Unit", VTK_STRING } })
     {
-      const int type = name[5] == 'N' ? VTK_STRING : VTK_DOUBLE;
       image->GetFieldData()->AddArray(OneIn(8) ? Array(name, Integer(0, 3), type, 2) : nullptr);
     }
     return image;
