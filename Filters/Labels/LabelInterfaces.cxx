@@ -84,10 +84,10 @@ LabelInterfaceMaker::LabelInterfaceMaker(LabelMap map, std::vector<int> selected
   this->Map = map.Part(box);
   for (int axis = 0; axis < 3; ++axis)
   {
-    this->InImage.First[axis] = std::max(-this->First[axis], 0);
-    this->InImage.End[axis] =
-      std::min(map.Size()[axis] - this->First[axis], this->Map.Size()[axis]);
+    this->Image.First[axis] = -this->First[axis];
+    this->Image.End[axis] = map.Size()[axis] - this->First[axis];
   }
+  this->InImage = this->Image.CommonWith(VoxelBox::Of(this->Map.Size()));
   if (settings.IsPeriodic())
   {
     this->CheckPeriod();
@@ -189,6 +189,22 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
   }
 }
 
+VoxelBox LabelInterfaceMaker::CountedBox() const
+{
+  VoxelBox box = this->InImage;
+  for (const Vector& position : this->Mesh.Position)
+  {
+    const float at[3] = { position.X, position.Y, position.Z };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double index = at[axis] / this->Space.Step()[axis];
+      box.First[axis] = std::min(box.First[axis], static_cast<int>(std::floor(index)));
+      box.End[axis] = std::max(box.End[axis], static_cast<int>(std::ceil(index)) + 1);
+    }
+  }
+  return box.CommonWith(this->Image);
+}
+
 void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
 {
   const LabelMap& map = this->Map;
@@ -221,8 +237,8 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     this->Counts[whole].MisclassifiedParts += isWrong(volumes[object], voxels) ? 1 : 0;
   }
   const std::vector<MismatchedVoxel> mismatched =
-    FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->InImage, step,
-      this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
+    FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->CountedBox(),
+      step, this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
     const LabelMap::Number objects[2] = { map.Whole(voxel.MapObject), map.Whole(voxel.MeshObject) };

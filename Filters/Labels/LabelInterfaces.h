@@ -90,6 +90,8 @@ private:
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
   void CountVoxels(HostThreads& threads);
+  /** Return the box of all voxels of the image that are in Map or in the mesh. */
+  VoxelBox CountedBox() const;
   /** Return the distance of a vertex of an object from the interface in its fields, world units. */
   float ResidualAt(int v, int object) const;
   /** Return the position of a vertex in computational space, exact in flat faces of the box. */
@@ -106,6 +108,7 @@ private:
   std::array<int, 3> First = { 0, 0, 0 }; ///< first voxel of Map in the image
   LabelMap Map;                           ///< the box of all objects, with a margin
   LabelMap WholeMap; ///< with the parts that KeepComponents removes from Map; empty if none
+  VoxelBox Image;    ///< the image, in voxels of Map
   VoxelBox InImage;  ///< the part of Map inside the image
   ComputationalSpace Space;
   std::optional<LabelBricks> Bricks;

@@ -241,20 +241,22 @@ TEST(MismatchedVoxels, AreFoundInTranslatedMesh)
   const LabelMap map = MakeLabelMap(
     { 32, 16, 16 }, 1, [](int i, int j, int k) { return i / 4 == 2 && j / 4 == 1 && k / 4 == 1; });
   const InterfaceScene scene(map);
-  const auto countAfter = [&](float offset, double tolerance, bool isFar)
+  const auto countAfter = [&](const Vector& offset, double tolerance, bool isFar)
   {
     InterfaceMesh mesh = StartOf(scene);
     for (Vector& position : mesh.Position)
     {
-      position += Vector(offset, 0.f, 0.f);
+      position += offset;
     }
     const auto found = FindMismatchedVoxels(
-      mesh, map, VoxelBox::Of(map.Size()), map.Spacing, tolerance, OnThisThread());
+      mesh, map, VoxelBox::Of(map.Size()).Grown(50), map.Spacing, tolerance, OnThisThread());
     return std::count_if(found.begin(), found.end(),
       [&](const MismatchedVoxel& voxel) { return voxel.IsFar == isFar; });
   };
-  EXPECT_EQ(countAfter(0.f, 0., true), 0);
-  EXPECT_EQ(countAfter(1.f, 0.4, true), 2 * 16);
-  EXPECT_EQ(countAfter(1.f, 0.6, false), 2 * 16);
-  EXPECT_EQ(countAfter(8.f, 0., true), 2 * 64) << "also in whole bricks";
+  EXPECT_EQ(countAfter({}, 0., true), 0);
+  EXPECT_EQ(countAfter({ 1, 0, 0 }, 0.4, true), 2 * 16);
+  EXPECT_EQ(countAfter({ 1, 0, 0 }, 0.6, false), 2 * 16);
+  EXPECT_EQ(countAfter({ 8, 0, 0 }, 0., true), 2 * 64) << "also in whole bricks";
+  EXPECT_EQ(countAfter({ 40, 0, 0 }, 0., true), 2 * 64) << "and outside the map";
+  EXPECT_EQ(countAfter({ 0, -40, 40 }, 0., true), 2 * 64);
 }

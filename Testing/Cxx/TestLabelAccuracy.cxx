@@ -193,3 +193,21 @@ TEST(LabelSurfaces, AreMoreAccurateByDefaultThanInterpolating)
   EXPECT_LT(byDefault.MeanAtVertices, interpolating.MeanAtVertices);
   EXPECT_LT(std::abs(byDefault.VolumeError), 0.002);
 }
+
+TEST(LabelSurfaces, CountWrongVoxelsFarFromTheLabel)
+{
+  // The coarse surface of a plate of four slices extends to six slices from it.
+  LabelMap map;
+  map.Size = { 20, 8, 30 };
+  map.Spacing = { 1.0, 1.0, 1.0 };
+  volumic::ForVoxels({ 20, 8, 30 },
+    [&](int, int, int k) {
+      map.Values.push_back(k >= 16 && k < 20 ? 5 : k >= 8 && k < 14 ? 3 : 0);
+    });
+  const Filter filter = FilterOf(ToImage(map));
+  filter->SetFinestLevel(2);
+  vtkPolyData* plate = BlockOf(filter, 1);
+  EXPECT_GT(plate->GetBounds()[5], 25.0);
+  EXPECT_EQ(FieldOf(plate, "WrongVoxels"),
+    static_cast<double>(JudgeVoxels(ToTriangleSurface(plate), map, 5).Misclassified()));
+}

@@ -41,7 +41,8 @@ public:
     const std::array<double, 3>& step, Executor& executor)
     : Mesh(mesh), Map(map), Box(box), Step(step), Threads(executor)
   {
-    std::copy(map.Size().begin(), map.Size().end(), this->Rows.End.begin());
+    std::copy(box.First.begin(), box.First.end(), this->Rows.First.begin());
+    std::copy(box.End.begin(), box.End.end(), this->Rows.End.begin());
   }
 
   std::vector<MismatchedVoxel> Find()
@@ -110,29 +111,34 @@ private:
         [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
       return inside == windings.end() ? Number(0) : inside->first;
     };
-    const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
-    this->Map.ForParts(voxels,
-      [&](const VoxelBox& part, Number mapObject)
+    const auto follow = [&](int first, int end, Number mapObject)
+    {
+      for (int i = first; i < end; ++i)
       {
-        for (int i = part.First[0]; i < part.End[0]; ++i)
+        for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
         {
-          for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
+          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
+          add(face.Behind, next->Winding);
+          if (!this->Mesh.IsSide(face.Front))
           {
-            const InterfaceMesh::Face& face =
-              this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
-            add(face.Behind, next->Winding);
-            if (!this->Mesh.IsSide(face.Front))
-            {
-              add(face.Front, -next->Winding);
-            }
-          }
-          const Number meshObject = meshObjectHere();
-          if (mapObject != meshObject)
-          {
-            found.push_back({ { i, j, k }, mapObject, meshObject });
+            add(face.Front, -next->Winding);
           }
         }
-      });
+        const Number meshObject = meshObjectHere();
+        if (mapObject != meshObject)
+        {
+          found.push_back({ { i, j, k }, mapObject, meshObject });
+        }
+      }
+    };
+    const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
+    const VoxelBox inMap = voxels.CommonWith(VoxelBox::Of(this->Map.Size()));
+    const bool isInMap = !inMap.IsEmpty();
+    follow(voxels.First[0], isInMap ? inMap.First[0] : voxels.End[0], 0);
+    this->Map.ForParts(inMap,
+      [&](const VoxelBox& part, Number mapObject)
+      { follow(part.First[0], part.End[0], mapObject); });
+    follow(isInMap ? inMap.End[0] : voxels.End[0], voxels.End[0], 0);
   }
 
   const InterfaceMesh& Mesh;

@@ -22,7 +22,8 @@ struct MismatchedVoxel
 };
 
 /**
- * Find the misclassified voxels of a box, in x-fastest order.
+ * Find the misclassified voxels of a box, in x-fastest order. Voxels outside the map are
+ * background.
  * @param step      size of a voxel in computational space
  * @param tolerance distance in computational space, see MismatchedVoxel::IsFar
  */
