@@ -189,32 +189,16 @@ void LabelInterfaceMaker::Make(HostThreads& threads, const Progress& progress)
   }
 }
 
-VoxelBox LabelInterfaceMaker::CountedBox() const
-{
-  VoxelBox box = this->InImage;
-  for (const Vector& position : this->Mesh.Position)
-  {
-    const float at[3] = { position.X, position.Y, position.Z };
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double index = at[axis] / this->Space.Step()[axis];
-      box.First[axis] = std::min(box.First[axis], static_cast<int>(std::floor(index)));
-      box.End[axis] = std::max(box.End[axis], static_cast<int>(std::ceil(index)) + 1);
-    }
-  }
-  return box.CommonWith(this->Image);
-}
-
 void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
 {
   const LabelMap& map = this->Map;
   std::vector<double> volumes(static_cast<std::size_t>(map.NumberOfObjects) + 1, 0.);
   const std::array<double, 3>& step = this->Space.Step();
-  const double ofVoxel = step[0] * step[1] * step[2];
   for (const InterfaceMesh::Face& face : this->Mesh.Faces)
   {
     const VectorD corner(this->Mesh.Position[static_cast<std::size_t>(face.Vertex[0])]);
-    const double volume = Dot(this->Mesh.NormalOf(face), corner) / (6. * ofVoxel);
+    const double volume =
+      Dot(this->Mesh.NormalOf(face), corner) / (6. * step[0] * step[1] * step[2]);
     volumes[face.Behind] += volume;
     if (!this->Mesh.IsSide(face.Front))
     {
@@ -224,8 +208,7 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
   const auto isWrong = [](double volume, double voxels)
   { return std::abs(volume - voxels) > MaximumVolumeError * voxels; };
   this->Counts.assign(volumes.size(), LabelSurface());
-  std::vector<double> ofWhole(volumes.size(), 0.);
-  std::vector<double> voxelsOfWhole = ofWhole;
+  std::vector<double> ofWhole(volumes.size(), 0.), voxelsOfWhole = ofWhole;
   for (std::size_t object = 1; object < volumes.size(); ++object)
   {
     const auto whole = static_cast<std::size_t>(map.Whole(static_cast<int>(object)));
@@ -237,8 +220,8 @@ void LabelInterfaceMaker::CountVoxels(HostThreads& threads)
     this->Counts[whole].MisclassifiedParts += isWrong(volumes[object], voxels) ? 1 : 0;
   }
   const std::vector<MismatchedVoxel> mismatched =
-    FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->CountedBox(),
-      step, this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
+    FindMismatchedVoxels(this->Mesh, this->WholeBricks ? this->WholeMap : map, this->Image, step,
+      this->Settings.VoxelToleranceInUse() + this->Options().Tolerance, threads);
   for (const MismatchedVoxel& voxel : mismatched)
   {
     const LabelMap::Number objects[2] = { map.Whole(voxel.MapObject), map.Whole(voxel.MeshObject) };

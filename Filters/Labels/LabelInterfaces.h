@@ -90,8 +90,6 @@ private:
   SurfaceResult ResultOf(int object, const std::vector<int>& faces, const IndexedSurface& ofMesh,
     const std::vector<int>& vertices) const;
   void CountVoxels(HostThreads& threads);
-  /** Return the box of all voxels of the image that are in Map or in the mesh. */
-  VoxelBox CountedBox() const;
   /** Return the distance of a vertex of an object from the interface in its fields, world units. */
   float ResidualAt(int v, int object) const;
   /** Return the position of a vertex in computational space, exact in flat faces of the box. */

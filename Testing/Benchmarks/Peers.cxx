@@ -9,7 +9,6 @@
 
 #include <vtkCleanPolyData.h>
 #include <vtkFlyingEdges3D.h>
-#include <vtkStaticPointLocator.h>
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/IO/facets_in_complex_2_to_triangle_mesh.h>
@@ -118,23 +117,14 @@ public:
     return this->IsoValue - along(2, inPlane(v), inPlane(v + plane));
   }
 
-  /** Return a voxel of the object beside a position where the trilinear field is the iso-value. */
-  Point VoxelBeside(const double position[3]) const
+  /** Return the voxel that is farthest inside. */
+  Point VoxelInside() const
   {
-    Point voxel(0, 0, 0);
-    for (const bool isUp : { false, true })
-    {
-      double corner[3];
-      for (int a = 0; a < 3; ++a)
-      {
-        const double at = position[a] / this->Step[a], near = std::round(at);
-        // On a grid edge two of the three indices are integers, up to rounding.
-        corner[a] = this->Step[a] * (std::abs(at - near) < 1e-3 ? near : std::floor(at) + isUp);
-      }
-      const Point end(corner[0], corner[1], corner[2]);
-      voxel = (*this)(end) <= (*this)(voxel) ? end : voxel;
-    }
-    return voxel;
+    const auto v = static_cast<int>(
+      std::max_element(this->Values->begin(), this->Values->end()) - this->Values->begin());
+    const int row = v / this->Size[0];
+    return Point(v % this->Size[0] * this->Step[0], row % this->Size[1] * this->Step[1],
+      row / this->Size[1] * this->Step[2]);
   }
 
   /** Return the radius of a sphere around any point of the image that encloses the image. */
@@ -205,13 +195,12 @@ Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double
   // the measured work. Without the former it often meshes a small part only.
   const ImplicitField field(image, isoValue);
   const support::TriangleSurface known = TrianglesOf(largest);
-  const auto pointAt = [&known](std::size_t k) { return known.Points[k].data(); };
   std::vector<Point> given;
   for (std::size_t k = 0; k < known.Points.size(); k += 500)
   {
-    given.emplace_back(pointAt(k)[0], pointAt(k)[1], pointAt(k)[2]);
+    given.emplace_back(known.Points[k][0], known.Points[k][1], known.Points[k][2]);
   }
-  const Point inside = field.VoxelBeside(pointAt(0));
+  const Point inside = field.VoxelInside();
   const auto work = [=]()
   {
     const double enclosing = field.EnclosingRadius();

@@ -81,8 +81,7 @@ void VisitEdges(const IndexedSurface& surface, const Visit& visit)
 
 inline void ExpectEdgesWithin(const IndexedSurface& surface, double shortest, double longest)
 {
-  double least = HUGE_VAL;
-  double most = 0;
+  double least = HUGE_VAL, most = 0;
   VisitEdges(surface,
     [&](int, int, double length)
     {

@@ -16,8 +16,7 @@ struct SurfaceTopology
 {
   int BadLinks = 0;   ///< vertices whose link is not one cycle: 0 if closed, oriented and manifold
   int BadVertex = -1; ///< one of these
-  int Vertices = 0;
-  int Faces = 0;
+  int Vertices = 0, Faces = 0;
   int Positive = 0; ///< components of positive signed volume
   int Negative = 0;
   double Volume = 0.;

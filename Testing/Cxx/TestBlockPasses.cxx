@@ -182,8 +182,7 @@ TEST(Passes, WriteOnlyInBlock)
   EXPECT_GT(counts.Merges, 10);
   EXPECT_GT(counts.Splits, 100);
   EXPECT_GT(counts.Collapses + counts.Cuts, 100);
-  int beyond = 0;
-  int moved = 0;
+  int beyond = 0, moved = 0;
   for (int v = 0; v < before.State.Mesh.Size(); ++v)
   {
     if (!before.State.Mesh.IsAlive(v))

@@ -83,8 +83,7 @@ TEST(Lanes, EqualScalarArithmetic)
   const auto next = [&random] { return static_cast<float>(random() >> 8) / (1 << 23) - 1.f; };
   for (int round = 0; round < 100; ++round)
   {
-    float a[4];
-    float b[4];
+    float a[4], b[4];
     for (int i = 0; i < 4; ++i)
     {
       a[i] = next();
@@ -132,8 +131,7 @@ namespace
 /** Return the resident memory of this process in MB; 0 if unknown. */
 double ResidentMegabytes()
 {
-  long all = 0;
-  long resident = 0;
+  long all = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> all >> resident;
   return static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
 }

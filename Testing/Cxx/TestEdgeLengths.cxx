@@ -166,8 +166,7 @@ TEST(GradedSurface, RespectsGradationAndMaximumEdgeLength)
   grading.MaximumEdgeLength = 5.;
   const SurfaceResult surface = SurfaceOf(OutsideBoxAndBall, grading);
   ExpectLegal(surface);
-  double longest = 0.;
-  double steepest = 0.;
+  double longest = 0., steepest = 0.;
   VisitEdges(surface,
     [&](int u, int v, double length)
     {

@@ -257,6 +257,5 @@ TEST(MismatchedVoxels, AreFoundInTranslatedMesh)
   EXPECT_EQ(countAfter({ 1, 0, 0 }, 0.4, true), 2 * 16);
   EXPECT_EQ(countAfter({ 1, 0, 0 }, 0.6, false), 2 * 16);
   EXPECT_EQ(countAfter({ 8, 0, 0 }, 0., true), 2 * 64) << "also in whole bricks";
-  EXPECT_EQ(countAfter({ 40, 0, 0 }, 0., true), 2 * 64) << "and outside the map";
-  EXPECT_EQ(countAfter({ 0, -40, 40 }, 0., true), 2 * 64);
+  EXPECT_EQ(countAfter({ 40, -40, 40 }, 0., true), 2 * 64) << "and outside the map";
 }

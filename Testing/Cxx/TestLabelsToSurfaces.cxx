@@ -245,8 +245,7 @@ TEST(LabelsToSurfaces, AppliesOriginSpacingDirectionAndExtent)
       0.01 * EnclosedVolume(BlockOf(moved, block)))
       << "outward in a mirror, too";
     EXPECT_LE(FieldOf(BlockOf(moved, block), "MissedVoxels"), 3.);
-    double index[3];
-    double centre[3];
+    double index[3], centre[3];
     BlockOf(moved, block)->GetCenter(centre);
     image->TransformPhysicalPointToContinuousIndex(centre, index);
     EXPECT_NEAR(index[0], (block == 0 ? 11. : 25.) + 5., 0.3);

@@ -95,8 +95,7 @@ TEST(MakeInterfaces, PreservesVolumesWithGoodTriangles)
     }
   }
   EXPECT_GT(large, 3);
-  double sum = 0.;
-  double least = 1.;
+  double sum = 0., least = 1.;
   for (const InterfaceMesh::Face& face : mesh.Faces)
   {
     const double ratio = RadiusRatio(TriangleOf(mesh, face.Vertex));

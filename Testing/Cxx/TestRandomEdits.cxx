@@ -125,8 +125,7 @@ protected:
     const float g = this->Gradation();
     // delta of an edge is the mean of its ends: length <= 2.5 (delta_u + g length / 2).
     const float longest = 2.5f / (1 - 1.25f * g);
-    int edges = 0;
-    int outside = 0;
+    int edges = 0, outside = 0;
     for (const int u : bench.All())
     {
       for (int i = 0; i < s.Mesh.Rings[u].Count; ++i, ++edges)

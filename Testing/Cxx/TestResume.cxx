@@ -167,8 +167,7 @@ TEST_F(Resume, ResumesAtTheLastConvergedLevelAfterAStop)
     const char* Part;
     int Number;
     int Level; ///< that is under way
-    int Finest;
-    int Stops = 2;
+    int Finest, Stops = 2;
   };
   for (const Case& test : { Case{ "Level 3 is done", 1, 2, 0, 1 },
          Case{ "Level 2, subdivision", 1, 2, 0 }, Case{ "Level 1, recovery", 1, 1, 0 },

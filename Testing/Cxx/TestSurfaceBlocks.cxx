@@ -180,8 +180,7 @@ TEST(SurfaceBlocks, RejectEditsOutsideRegion)
   BlockPass pass = blocks.Open(1);
   SurfaceEditor editor(state, &pass.Context);
   const float end = blocks.BoxOf(1).High.X;
-  int beyond = 0;
-  int within = 0;
+  int beyond = 0, within = 0;
   for (int v = 0; v < state.Mesh.Size(); ++v)
   {
     if (!state.Mesh.IsAlive(v))

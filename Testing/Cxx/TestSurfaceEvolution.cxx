@@ -60,8 +60,7 @@ TEST(SurfaceEvolution, IsValidAfterEachSweep)
       return Soft(std::hypot(q, z - 18) - 4.32) + noise(engine);
     });
   TestEvolution evolution(IsoHalf(), Threads, Silent);
-  int calls = 0;
-  int faults = 0;
+  int calls = 0, faults = 0;
   evolution.AfterSweep = [&]
   {
     ++calls;

@@ -83,8 +83,7 @@ TEST(SurfaceEvolutionInvalid, RejectsOptionsOutOfRange)
   {
     const char* Name;
     double SurfaceOptions::*Option;
-    double TooLow;
-    double TooHigh;
+    double TooLow, TooHigh;
   };
   const double none = std::numeric_limits<double>::quiet_NaN();
   std::vector<Case> cases = { { "Sampling Ratio", &SurfaceOptions::SamplingRatio, 0.6, 1.01 },

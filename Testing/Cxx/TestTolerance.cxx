@@ -89,8 +89,7 @@ TEST(Tolerance, IsInWorldUnits)
     0.02 * large->GetOutput()->GetNumberOfPoints());
   EXPECT_NEAR(FieldOf(filter->GetOutput(), "LargestDistance"),
     1e-3 * FieldOf(large->GetOutput(), "LargestDistance"), 2e-4);
-  double of[2];
-  double ofLarge[2];
+  double of[2], ofLarge[2];
   filter->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetRange(of);
   large->GetOutput()->GetPointData()->GetArray("EdgeSize")->GetRange(ofLarge);
   EXPECT_NEAR(of[1], 1e-3 * ofLarge[1], 1e-4);

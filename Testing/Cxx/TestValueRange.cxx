@@ -120,8 +120,7 @@ TEST(ValueRange, ReportsInvalidRanges)
 {
   struct Case
   {
-    double Iso;
-    double Upper;
+    double Iso, Upper;
     std::vector<std::string> Parts;
   };
   const double infinite = std::numeric_limits<double>::infinity();

@@ -68,8 +68,7 @@ private:
   }
 
   std::atomic<std::uint32_t> State;
-  unsigned Longest;
-  unsigned Every;
+  unsigned Longest, Every;
 };
 
 /** Runs short ranges in reverse order. */

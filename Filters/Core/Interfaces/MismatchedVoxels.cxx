@@ -41,8 +41,8 @@ public:
     const std::array<double, 3>& step, Executor& executor)
     : Mesh(mesh), Map(map), Box(box), Step(step), Threads(executor)
   {
-    std::copy(box.First.begin(), box.First.end(), this->Rows.First.begin());
-    std::copy(box.End.begin(), box.End.end(), this->Rows.End.begin());
+    this->Rows.First = { 0, box.First[1], box.First[2] };
+    this->Rows.End = { 0, box.End[1], box.End[2] };
   }
 
   std::vector<MismatchedVoxel> Find()
@@ -93,6 +93,11 @@ private:
     const std::int64_t row = this->Rows.RowOf(j, k);
     auto next = std::lower_bound(this->Crossings.begin(), this->Crossings.end(), row,
       [](const FaceCrossing& crossing, std::int64_t number) { return crossing.Row < number; });
+    const VoxelBox ofMap = VoxelBox::Of(this->Map.Size());
+    if (!ofMap.Contains({ 0, j, k }) && (next == this->Crossings.end() || next->Row != row))
+    {
+      return;
+    }
     std::vector<std::pair<Number, int>> windings; // non-zero winding numbers of objects
     const auto add = [&](Number object, int winding)
     {
@@ -105,40 +110,26 @@ private:
         windings.erase(at);
       }
     };
-    const auto meshObjectHere = [&]
+    for (int i = this->Box.First[0]; i < this->Box.End[0]; ++i)
     {
-      const auto inside = std::find_if(windings.begin(), windings.end(),
-        [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
-      return inside == windings.end() ? Number(0) : inside->first;
-    };
-    const auto follow = [&](int first, int end, Number mapObject)
-    {
-      for (int i = first; i < end; ++i)
+      for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
       {
-        for (; next != this->Crossings.end() && next->Row == row && next->X < i; ++next)
+        const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
+        add(face.Behind, next->Winding);
+        if (!this->Mesh.IsSide(face.Front))
         {
-          const InterfaceMesh::Face& face = this->Mesh.Faces[static_cast<std::size_t>(next->Face)];
-          add(face.Behind, next->Winding);
-          if (!this->Mesh.IsSide(face.Front))
-          {
-            add(face.Front, -next->Winding);
-          }
-        }
-        const Number meshObject = meshObjectHere();
-        if (mapObject != meshObject)
-        {
-          found.push_back({ { i, j, k }, mapObject, meshObject });
+          add(face.Front, -next->Winding);
         }
       }
-    };
-    const VoxelBox voxels = { { this->Box.First[0], j, k }, { this->Box.End[0], j + 1, k + 1 } };
-    const VoxelBox inMap = voxels.CommonWith(VoxelBox::Of(this->Map.Size()));
-    const bool isInMap = !inMap.IsEmpty();
-    follow(voxels.First[0], isInMap ? inMap.First[0] : voxels.End[0], 0);
-    this->Map.ForParts(inMap,
-      [&](const VoxelBox& part, Number mapObject)
-      { follow(part.First[0], part.End[0], mapObject); });
-    follow(isInMap ? inMap.End[0] : voxels.End[0], voxels.End[0], 0);
+      const Number mapObject = ofMap.Contains({ i, j, k }) ? this->Map.At(i, j, k) : Number(0);
+      const auto inside = std::find_if(windings.begin(), windings.end(),
+        [](const auto& entry) { return entry.first != 0 && entry.second > 0; });
+      const Number meshObject = inside == windings.end() ? Number(0) : inside->first;
+      if (mapObject != meshObject)
+      {
+        found.push_back({ { i, j, k }, mapObject, meshObject });
+      }
+    }
   }
 
   const InterfaceMesh& Mesh;

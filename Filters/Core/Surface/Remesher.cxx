@@ -35,19 +35,17 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
 {
   // If the longest edge of a triangle cannot be split, the two others would be split in turn. Each
   // midpoint would be a quarter as far from the last one, until all are collinear. Intersection
-  // tests fail for such needles; a local division splits often. Few splits may be refused: the
-  // search for pairs misses faces of long edges.
+  // tests fail for such needles. Few splits may be refused: tests miss faces of long edges.
   const SurfaceState& s = this->State;
   const float* least = s.Sizing.IsGraded() ? GradedNeedle : UniformNeedle;
   const float delta = s.Sizing.ShortestEdge(u, v);
-  const Vector& first = s.Mesh.Position[u];
-  const Vector& last = s.Mesh.Position[v];
+  const Vector ends[] = { s.Mesh.Position[u], s.Mesh.Position[v] };
   const auto isNear = [&](int w)
   {
     const auto isWithin = [&](const Vector& from, float distance)
     { return SquaredDistance(s.Mesh.Position[w], from) < distance * delta * (distance * delta); };
-    return isWithin((first + last) * 0.5f, least[0]) || isWithin(first, least[1]) ||
-      isWithin(last, least[1]);
+    return isWithin((ends[0] + ends[1]) * 0.5f, least[0]) || isWithin(ends[0], least[1]) ||
+      isWithin(ends[1], least[1]);
   };
   return isNear(across.A) || isNear(across.B);
 }
