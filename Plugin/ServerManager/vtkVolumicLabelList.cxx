@@ -49,8 +49,7 @@ void Append(vtkStringArray* rows, std::set<int>& known, vtkFieldData* data, cons
 std::string TextOf(const std::string& message)
 {
   const std::string end = "): ";
-  const std::size_t head = message.find(end);
-  const std::size_t last = message.find_last_not_of(" \n");
+  const std::size_t head = message.find(end), last = message.find_last_not_of(" \n");
   const std::size_t first = head == std::string::npos ? 0 : head + end.size();
   return last == std::string::npos || last < first ? "" : message.substr(first, last + 1 - first);
 }

@@ -26,8 +26,8 @@ std::vector<double> BarsOf(const std::vector<double>& counts, int most)
     bars.assign(static_cast<std::size_t>(number), 0.0);
     for (int bar = 0; bar < number; ++bar)
     {
-      const auto first = counts.begin() + bar * bins / number;
-      const auto end = counts.begin() + (bar + 1) * bins / number;
+      const auto first = counts.begin() + bar * bins / number,
+                 end = counts.begin() + (bar + 1) * bins / number;
       bars[static_cast<std::size_t>(bar)] = std::log1p(std::accumulate(first, end, 0.0));
     }
     if (2 * std::count(bars.begin(), bars.end(), 0.0) < number)
@@ -111,8 +111,7 @@ void HistogramWidget::paintEvent(QPaintEvent*)
   const int below = this->height();
   for (int bar = 0; bar < count; ++bar)
   {
-    const int left = bar * this->width() / count;
-    const int right = (bar + 1) * this->width() / count;
+    const int left = bar * this->width() / count, right = (bar + 1) * this->width() / count;
     const auto high =
       static_cast<int>(std::lround(bars[static_cast<std::size_t>(bar)] / most * (below - 4)));
     painter.fillRect(left, below - high, right - left, high, colors.color(QPalette::Mid));

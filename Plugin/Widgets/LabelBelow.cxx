@@ -15,9 +15,7 @@ void alignLabel(QWidget* widget, int heightOfRow)
   auto* grid =
     widget->parentWidget() ? qobject_cast<QGridLayout*>(widget->parentWidget()->layout()) : nullptr;
   const int index = grid ? grid->indexOf(widget) : -1;
-  int row = 0;
-  int column = 0;
-  int spans[2] = { 0, 0 };
+  int row = 0, column = 0, spans[2] = { 0, 0 };
   if (index >= 0)
   {
     grid->getItemPosition(index, &row, &column, &spans[0], &spans[1]);

@@ -16,6 +16,7 @@
 #include <vtk3DWidgetRepresentation.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
+#include <vtkCellPicker.h>
 #include <vtkCommand.h>
 #include <vtkCurveRepresentation.h>
 #include <vtkNew.h>
@@ -70,13 +71,24 @@ vtkCurveRepresentation* HandlesOf(vtkSMProxy* widget)
 
 /**
  * Find the point under the mouse on surfaces and slices, by the depth buffer. With remote rendering
- * use ParaView's picking, on surfaces only.
+ * use ParaView's picking, on surfaces only. ParaView 5.13 has no depths of the faint actor.
  */
-bool PickIn(vtkSMRenderViewProxy* view, double position[3])
+bool PickIn(vtkSMRenderViewProxy* view, vtkActor* faint, double position[3])
 {
   const int* mouse = view->GetInteractor()->GetEventPosition();
   vtkRenderer* renderer = view->GetRenderer();
-  const double depth = renderer->GetZ(mouse[0], mouse[1]);
+  double depth = renderer->GetZ(mouse[0], mouse[1]);
+  vtkNew<vtkCellPicker> picker;
+  picker->PickFromListOn();
+  picker->AddPickList(faint);
+  faint->SetPickable(renderer->HasViewProp(faint));
+  if (picker->Pick(mouse[0], mouse[1], 0.0, renderer))
+  {
+    std::copy_n(picker->GetPickPosition(), 3, position);
+    renderer->WorldToDisplay(position[0], position[1], position[2]);
+    depth = std::min(depth, position[2]);
+  }
+  faint->PickableOff();
   if (depth >= 1.0)
   {
     double normal[3];
@@ -132,12 +144,10 @@ pqPointListPropertyWidget::pqPointListPropertyWidget(
   this->addPropertyLink(this, "coordinates", SIGNAL(coordinatesChanged()), property);
   this->placeHandles();
 
-  // Removed components are faint, but write depths for picking.
   this->Parts->LeftOut->ScalarVisibilityOff();
   this->Parts->LeftOutActor->SetMapper(this->Parts->LeftOut);
   this->Parts->LeftOutActor->GetProperty()->SetOpacity(0.3);
   this->Parts->LeftOutActor->GetProperty()->BackfaceCullingOn();
-  this->Parts->LeftOutActor->ForceOpaqueOn();
   this->Parts->LeftOutActor->PickableOff();
   if (HintOf(property, "selects", 0))
   {
@@ -198,7 +208,6 @@ void pqPointListPropertyWidget::buildPanel()
   parts.Show->setChecked(HintOf(this->property(), "show", 1));
   grid->addWidget(parts.Show, 3, 0, 1, -1);
   parts.Note = new QLabel(this);
-  parts.Note->setObjectName("Note");
   parts.Note->setWordWrap(true);
   grid->addWidget(parts.Note, 4, 0, 1, -1);
 
@@ -210,7 +219,6 @@ void pqPointListPropertyWidget::buildPanel()
   this->fillTable();
 }
 
-//------------------------------------------------------------------------------
 QList<QVariant> pqPointListPropertyWidget::coordinates() const
 {
   return this->Parts->Coordinates;
@@ -252,7 +260,6 @@ void pqPointListPropertyWidget::fillTable()
   this->updateRow();
 }
 
-//------------------------------------------------------------------------------
 void pqPointListPropertyWidget::addPoint(const double position[3])
 {
   this->change(
@@ -265,7 +272,8 @@ void pqPointListPropertyWidget::pick()
 {
   double position[3];
   auto* view = qobject_cast<pqRenderView*>(this->view());
-  const bool isFound = view && PickIn(view->getRenderViewProxy(), position);
+  const bool isFound =
+    view && PickIn(view->getRenderViewProxy(), this->Parts->LeftOutActor, position);
   if (auto* window = qobject_cast<QMainWindow*>(pqCoreUtilities::mainWidget()))
   {
     window->statusBar()->showMessage(
@@ -315,7 +323,6 @@ void pqPointListPropertyWidget::readCell(QTableWidgetItem* item)
   Q_EMIT this->changeFinished();
 }
 
-//------------------------------------------------------------------------------
 void pqPointListPropertyWidget::placeHandles()
 {
   std::vector<double> positions;
@@ -349,7 +356,6 @@ void pqPointListPropertyWidget::readHandles()
   Q_EMIT this->coordinatesChanged();
 }
 
-//------------------------------------------------------------------------------
 bool pqPointListPropertyWidget::selectsComponents() const
 {
   if (!HintOf(this->property(), "selects", 0))
@@ -391,7 +397,6 @@ void pqPointListPropertyWidget::updateRow()
   this->updateWidgetVisibility();
 }
 
-//------------------------------------------------------------------------------
 void pqPointListPropertyWidget::showEvent(QShowEvent*)
 {
   this->updateRow();

@@ -75,8 +75,7 @@ void pqValueRangeDecorator::showRange()
   this->Label->setVisible(isKnown);
   if (isKnown)
   {
-    const double low = range->GetMinimum(0);
-    const double high = range->GetMaximum(0);
+    const double low = range->GetMinimum(0), high = range->GetMaximum(0);
     QString text = tr("<b>Value Range:</b> [%1, %2]").arg(low).arg(high);
     if (areHounsfieldUnits(low, high))
     {
