@@ -192,7 +192,7 @@ Job MesherJob(vtkImageData* image, vtkPolyData* largest, double isoValue, double
   constexpr double precision = 0.03;
   const auto mesh = std::make_shared<Mesh>();
   // Points of the surface and of the object, which users of this mesher provide, are found outside
-  // the measured work. Without the former it often meshes a small part only.
+  // the measured work. Without surface points it often meshes a small part only.
   const ImplicitField field(image, isoValue);
   const support::TriangleSurface known = TrianglesOf(largest);
   std::vector<Point> given;

@@ -183,7 +183,7 @@ class AbortWindowTest(window.WindowTestCase):
         before = self.session.pixels()
         self.hand.key("Control_L", "space")
         self.session.wait_for_rest(before)
-        for letter in "to surface volume":  # the first may be lost on a busy machine
+        for letter in "to surface volume":  # a busy machine may lose the first letters
             self.hand.key({" ": "space"}.get(letter, letter))
         self.session.wait_for_rest()
         self.hand.key("Return")

@@ -22,7 +22,7 @@ struct MismatchedVoxel
 };
 
 /**
- * Find the misclassified voxels of a box, in x-fastest order. Those outside the map are background.
+ * Find the misclassified voxels of a box, x fastest. Voxels outside the map are background.
  * @param step      size of a voxel in computational space
  * @param tolerance distance in computational space, see MismatchedVoxel::IsFar
  */

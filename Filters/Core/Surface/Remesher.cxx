@@ -35,7 +35,7 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
 {
   // If the longest edge of a triangle cannot be split, the two others would be split in turn. Each
   // midpoint would be a quarter as far from the last one, until all are collinear. Intersection
-  // tests fail for such needles. Few splits may be refused: tests miss faces of long edges.
+  // tests fail for such needles. Refuse few splits, because tests miss faces of long edges.
   const SurfaceState& s = this->State;
   const float* least = s.Sizing.IsGraded() ? GradedNeedle : UniformNeedle;
   const float delta = s.Sizing.ShortestEdge(u, v);
