@@ -67,10 +67,7 @@ QPoint positionOf(const QMouseEvent* event)
 #endif
 }
 
-/**
- * Return whether the event is input of the user. Mouse moves and button releases are not, because
- * they start nothing.
- */
+/** Return whether the event is input. Moves and releases of the mouse start nothing. */
 bool isInput(const QEvent* event)
 {
   switch (event->type())
@@ -279,7 +276,9 @@ bool pqAbortButtonBehavior::isPressOfButton(QObject* object, QEvent* event) cons
 //------------------------------------------------------------------------------
 bool pqAbortButtonBehavior::eventFilter(QObject* object, QEvent* event)
 {
-  if (isTimerOfParaView(object, event))
+  // ParaView 6.1 would set a cursor, and at the end of the run restore the busy one.
+  if (isTimerOfParaView(object, event) ||
+    (event->type() == QEvent::Enter && this->Button && object == this->Button->parent()))
   {
     return true;
   }

@@ -80,7 +80,6 @@ view.GetInteractor().CreateRepeatingTimer(100)
 print("Window is ready.")
 """
 
-
 # Runs in the window: reports the processor time of previews that are no source of the pipeline, and of
 # the same previews that are.
 MEASURE = """
@@ -165,8 +164,7 @@ class AbortWindowTest(window.WindowTestCase):
     @contextlib.contextmanager
     def run_held(self):
         """Hold the next run at its first iteration until the context ends."""
-        with open(self.hold, "w", encoding="utf-8"):
-            pass
+        os.close(os.open(self.hold, os.O_CREAT))
         try:
             yield
         finally:
@@ -196,13 +194,18 @@ class AbortWindowTest(window.WindowTestCase):
         with self.run_held():
             self.hand.press(apply)
             self.line_with("Iterations have begun")
-            self.hand.press(self.wait_for(abort_button, "during"))
+            self.hand.press(cross := self.wait_for(abort_button, "during"))
             self.line_with("Stop is requested")
         reason, points, _, bad_edges = self.values("Run ended: ")
         self.assertEqual((reason, bad_edges), ("cancelled", 0))
         self.assertTrue(100 < points < self.whole[1])
         self.assertEqual(self.values("View: "), (2, points))
         self.assertIsNone(abort_button(self.picture("after")), "disabled again")
+        near = tuple(slice(c - 20, c + 20) for c in cross[::-1])
+        cursor = self.session.pixels()[near]
+        for position in apply, cross:
+            self.hand.move(*position)
+        self.assertTrue((self.session.pixels()[near] == cursor).all(), "the cursor is not busy")
         self.session.wait_for_rest()
         with self.run_held():
             self.hand.press(self.wait_for(window.apply_button, "after"))

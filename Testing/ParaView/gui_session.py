@@ -68,8 +68,7 @@ PATIENCE = 900  # seconds, for a busy machine
 class Session:
     """Starts Xvfb and paraview. play() returns when all events have been played or one has failed.
 
-    Starting a window takes long, so one window plays scripts one after the other, and resets its state
-    between them. At the end of a script it waits for the next one.
+    Starting a window takes long, so one window plays all scripts, and resets its state between them.
 
     plain: for pictures; a window for each script, without macros in the toolbars and add_code().
     """

@@ -179,8 +179,7 @@ class LabelsWindowTest(window.WindowTestCase):
         self.assertEqual([run[:2] for run in runs], [
             ("[3, 12]", "['liver', 'spleen']"), ("[3, 12]", "[]"), ("[3]", "['Label 3']"),
             ("[3]", "[]"), ("[3]", "['liver']"), ("[]", "['liver', 'left kidney', 'spleen']")])
-        self.assertEqual([run[2] for run in runs if run[1] != "[]"],
-                         [run[1] for run in runs if run[1] != "[]"])
+        self.assertEqual([run for run in runs if run[1] not in (run[2], "[]")], [])
 
 
 PRINT_READER = """

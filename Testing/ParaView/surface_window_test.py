@@ -20,7 +20,6 @@ ADVANCED = ("ObjectIsBright", "CoarsestLevel", "FinestLevel", "Recovery", "Toler
             "MaximumNumberOfIterations", "ConvergenceTolerance", "NumberOfThreads", "TimeLimit",
             "ScratchDirectory", "SnapshotInterval")
 
-
 # Runs in the window: an image whose second array has several components.
 VECTOR = """
 from paraview import simple
