@@ -69,6 +69,11 @@ public:
   std::unique_ptr<Evolution> Current;
 
   void StartEnclosing(const LevelImage& image, int level) { this->Start(image, level, {}); }
+  StopReason RunEnclosing(const LevelImage& image, int level)
+  {
+    this->StartEnclosing(image, level);
+    return this->Run();
+  }
   /** @return number of seeds */
   int StartSeeds(const LevelImage& image, int level, const std::vector<Point>& seeds)
   {

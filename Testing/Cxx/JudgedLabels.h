@@ -38,12 +38,7 @@ inline double FieldOf(vtkPolyData* surface, const char* name)
 inline void ExpectGoodTriangles(vtkPolyData* block, double meanShape = 0.9)
 {
   const SurfaceVerdict verdict = JudgeSurface(ToTriangleSurface(block), FieldOf(block, "Delta"));
-  EXPECT_TRUE(verdict.Topology.Closed);
-  EXPECT_TRUE(verdict.Topology.Manifold);
-  EXPECT_TRUE(verdict.Topology.Outward);
-  EXPECT_EQ(verdict.Topology.UnusedPoints, 0u);
-  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
-  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u);
+  EXPECT_TRUE(verdict.IsSound()) << Describe(verdict);
   EXPECT_GT(verdict.Shapes.Mean, meanShape) << Describe(verdict);
 }
 } // namespace volumic::support

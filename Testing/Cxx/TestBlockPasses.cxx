@@ -44,8 +44,8 @@ struct SweptRun
   {
     const LevelPair scene(48, Bars, Bars);
     TestEvolution evolution(options, executor, monitor);
-    evolution.StartEnclosing(scene.Coarse.Image, 1);
-    if (evolution.Run() != StopReason::Cancelled && evolution.Divide(scene.Fine.Image, 0))
+    if (evolution.RunEnclosing(scene.Coarse.Image, 1) != StopReason::Cancelled &&
+      evolution.Divide(scene.Fine.Image, 0))
     {
       this->Enclosed = evolution.Missed().Enclosed + evolution.Missed().EnclosedCavities;
       evolution.Run();

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "Core/Common/CancellableExecutor.h"
 #include "Core/Common/DisjointSets.h"
 #include "Core/Common/Executor.h"

@@ -49,8 +49,7 @@ SurfaceResult SurfaceOf(const Outside& outside, const Grading& grading)
   const TestVolume volume = VolumeOf(outside);
   TestEvolution evolution(IsoHalf(), Threads, Silent);
   evolution.Task.Grading = grading;
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
   EXPECT_EQ(evolution.Verified().Found, 0);
   return evolution.Result();
 }
@@ -110,8 +109,7 @@ TwoLevels SurfaceOfTwoLevels(const Outside& outside, const Grading& grading, dou
   LevelImage fine = volume.Image;
   fine.Unit = fineUnit;
   TestEvolution evolution(IsoHalf(), Threads, Silent);
-  evolution.StartEnclosing(coarse, 1);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.RunEnclosing(coarse, 1), StopReason::Converged);
   evolution.Task.Grading = grading;
   TwoLevels result;
   EXPECT_TRUE(evolution.Divide(fine, 0));

@@ -36,13 +36,20 @@ TEST(Field, IsTrilinearInComputationalSpace)
 TEST(Field, GradientInterpolatesCentralDifferences)
 {
   // The interpolated central difference of x^2 is 2 x; the derivative of the interpolant is not.
-  const TestVolume volume =
+  TestVolume volume =
     MakeVolume(10, [](double x, double y, double z) { return x * x + 2 * y * y - z * z; });
-  const Field field(volume.Image, WithIso(0.), OnThisThread());
-  const Vector g = field.At(Vector(4.3f, 5.6f, 3.2f)).Gradient;
-  EXPECT_NEAR(g.X, 8.6, 1e-4);
-  EXPECT_NEAR(g.Y, 22.4, 1e-4);
-  EXPECT_NEAR(g.Z, -6.4, 1e-4);
+  const std::vector<short> shorts(volume.Values.begin(), volume.Values.end());
+  const std::vector<double> doubles(volume.Values.begin(), volume.Values.end());
+  for (const VoxelValues& values : { volume.Image.Values, VoxelValues(shorts.data(), 1.),
+         VoxelValues(shorts.data(), 0.1), VoxelValues(doubles.data(), 0.1) })
+  {
+    volume.Image.Values = values;
+    const Field field(volume.Image, WithIso(0.), OnThisThread());
+    const Vector g = field.At(Vector(4.3f, 5.6f, 3.2f)).Gradient;
+    EXPECT_NEAR(g.X, 8.6, 1e-4);
+    EXPECT_NEAR(g.Y, 22.4, 1e-4);
+    EXPECT_NEAR(g.Z, -6.4, 1e-4);
+  }
 }
 
 TEST(Field, ReachesBackgroundWithinOneVoxelOfBorder)

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "EvolutionTestTools.h"
 
@@ -34,8 +33,7 @@ TEST(History, KineticEnergyMatchesTerminalSpeedAndVanishes)
     SurfaceOptions options = IsoHalf();
     options.Friction = friction;
     TestEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(volume.Image, 0);
-    ASSERT_EQ(evolution.Run(), StopReason::Converged);
+    ASSERT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
     const std::vector<HistoryRow>& rows = evolution.History();
     ASSERT_GT(rows.size(), 40u);
     // Forces and friction balance before the surface reaches the object.
@@ -69,8 +67,7 @@ TEST(History, RowsDescribeStateAfterSweep)
     EXPECT_GE(active, 0.3 * row.ActiveVertices);
     EXPECT_LE(row.TimeStep, 1.5 + 1e-5);
   };
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
   EXPECT_GT(sweeps, 5);
   const std::vector<HistoryRow>& rows = evolution.History();
   ASSERT_GT(rows.size(), 10u);
@@ -121,8 +118,7 @@ TEST(History, LevelConvergesWithItsVolume)
     std::vector<double> volumes;
     TestEvolution evolution(options, Threads, Silent);
     evolution.AfterSweep = [&] { volumes.push_back(ComputeFeatures(evolution.Result()).Volume); };
-    evolution.StartEnclosing(volume.Image, 0);
-    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
     const double delta = evolution.Result().Delta;
     // As documented at SurfaceOptions::ConvergenceTolerance.
     std::size_t expected = 5;
@@ -166,8 +162,7 @@ LevelPair SceneWithMissedBalls()
 /** @return the number of rows of the coarse level */
 std::size_t RunBothLevels(TestEvolution& evolution, const LevelPair& scene)
 {
-  evolution.StartEnclosing(scene.Coarse.Image, 1);
-  evolution.Run();
+  evolution.RunEnclosing(scene.Coarse.Image, 1);
   const std::size_t coarseRows = evolution.History().size();
   evolution.Divide(scene.Fine.Image, 0);
   evolution.Run();
@@ -215,8 +210,7 @@ TEST(EvolutionHistory, SecondsAddUpToElapsedTime)
   const auto elapsed = [start]
   { return std::chrono::duration<double>(steady_clock::now() - start).count(); };
   evolution.Converged.History.StartClock(start);
-  evolution.StartEnclosing(scene.Coarse.Image, 1);
-  evolution.Run();
+  evolution.RunEnclosing(scene.Coarse.Image, 1);
   evolution.Converged.History.EndLevel();
   const double coarse = elapsed();
   evolution.Divide(scene.Fine.Image, 0);

@@ -146,8 +146,7 @@ TEST(InitialSurfaceCheck, PreservesValidMesh)
 {
   const TestVolume volume = BallVolume(40, 12);
   TestEvolution first(IsoHalf(), Threads, Silent);
-  first.StartEnclosing(volume.Image, 0);
-  first.Run();
+  first.RunEnclosing(volume.Image, 0);
   const SurfaceResult converged = first.Result();
   TestEvolution second(IsoHalf(), Threads, Silent);
   IndexedSurface withMore = converged;

@@ -157,9 +157,7 @@ void ExpectLegal(const SurfaceResult& surface, const char* when)
 {
   const SurfaceVerdict verdict = JudgeSurface(Judged(surface), surface.Delta);
   SCOPED_TRACE(std::string(when) + "\n" + Describe(verdict));
-  EXPECT_TRUE(verdict.Topology.Outward);
-  EXPECT_EQ(verdict.Intersections.Pairs, 0u);
-  EXPECT_EQ(verdict.Intersections.FlatTriangles, 0u);
+  EXPECT_TRUE(verdict.IsSound());
   EXPECT_LE(verdict.Lengths.Longest, 2.5001 * surface.Delta);
   EXPECT_GE(verdict.Lengths.Shortest, 0.2 * surface.Delta);
   EXPECT_LE(verdict.Lengths.EdgesTooShort, verdict.Lengths.Edges / 50 + 3);

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/RowCrossing.h"
 #include "Core/Mesh/VertexGrid.h"

@@ -41,8 +41,7 @@ TEST(SurfaceEvolution, IsValidInLongBox)
   TestEvolution evolution(options, Threads, Silent);
   int faults = 0;
   evolution.AfterSweep = [&] { faults += CountFaults(evolution); };
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::IterationLimit);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::IterationLimit);
   EXPECT_EQ(faults, 0);
   ExpectValidMesh(evolution.Result());
   ExpectLegalEdges(evolution.Result());
@@ -66,8 +65,7 @@ TEST(SurfaceEvolution, IsValidAfterEachSweep)
     ++calls;
     faults += CountFaults(evolution);
   };
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
   EXPECT_GT(calls, 5);
   EXPECT_EQ(faults, 0);
   const SurfaceFeatures features = ComputeFeatures(evolution.Result());
@@ -85,8 +83,7 @@ TEST(SurfaceEvolution, PreservesTopologyOnRequest)
   options.TopologyChanges = false;
   options.MaximumNumberOfIterations = 150;
   TestEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
+  evolution.RunEnclosing(volume.Image, 0);
   EXPECT_EQ(ComputeFeatures(evolution.Result()).Components.size(), 1u);
   EXPECT_EQ(CountSelfIntersections(evolution.Result()), 0);
 }
@@ -100,8 +97,7 @@ TEST(Termination, StopsNoiseAsLimitCycle)
   options.Friction = 0.3;
   options.ConvergenceTolerance = 0.;
   TestEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  const StopReason reason = evolution.Run();
+  const StopReason reason = evolution.RunEnclosing(volume.Image, 0);
   EXPECT_EQ(reason, StopReason::LimitCycle) << Describe(reason);
   EXPECT_STREQ(Describe(reason), "limit cycle");
   EXPECT_LT(evolution.Iterations(), 400);
@@ -123,8 +119,7 @@ TEST(Termination, BoundsWorkForReplicatedCheckerboard)
   options.ConvergenceTolerance = 0.;
   options.FreezeMotionlessVertices = false;
   TestEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
+  evolution.RunEnclosing(volume.Image, 0);
   EXPECT_LT(Work(evolution), 2e6);
 }
 
@@ -138,8 +133,7 @@ TEST(Termination, ConvergesWithStrongInternalForces)
     options.TensionWeight = weights.first;
     options.ElasticityWeight = weights.second;
     TestEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(volume.Image, 0);
-    EXPECT_EQ(evolution.Run(), StopReason::Converged) << weights.first;
+    EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged) << weights.first;
     EXPECT_LT(Work(evolution), 6e5) << weights.first;
     const double volumeOfBall = 4. / 3. * 3.14159265 * 729.;
     EXPECT_NEAR(ComputeFeatures(evolution.Result()).Volume, volumeOfBall, 0.1 * volumeOfBall)

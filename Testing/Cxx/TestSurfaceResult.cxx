@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "Core/Common/Executor.h"
 #include "Core/Mesh/SurfaceFeatures.h"
 #include "CoreTestTools.h"
@@ -18,8 +17,7 @@ TEST(SurfaceResult, IsCloserToIsosurfaceWithSnapping)
     SurfaceOptions options = IsoHalf();
     options.SnapToIsoValue = snap;
     TestEvolution evolution(options, Threads, Silent);
-    evolution.StartEnclosing(volume.Image, 0);
-    EXPECT_EQ(evolution.Run(), StopReason::Converged);
+    EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
     const SurfaceResult surface = evolution.Result();
     for (const float x : surface.Residual)
     {
@@ -48,8 +46,7 @@ TEST(SurfaceResult, LiesOnGivenEdges)
   SurfaceOptions options = IsoHalf();
   options.EdgeAttractionWeight = 4;
   TestEvolution evolution(options, Threads, Silent);
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Converged);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Converged);
   double radius = 0;
   const SurfaceResult surface = evolution.Result();
   for (const Point& p : surface.Points)

@@ -95,8 +95,7 @@ TEST(Verification, RepairsSurfaceOfLevel)
 {
   const TestVolume volume = BallVolume(32, 10);
   TestEvolution undisturbed(TwentyIterations(), Threads, Silent);
-  undisturbed.StartEnclosing(volume.Image, 0);
-  undisturbed.Run();
+  undisturbed.RunEnclosing(volume.Image, 0);
   EXPECT_EQ(undisturbed.Verified().Found, 0);
   const double requested = ComputeFeatures(undisturbed.Result()).Volume;
   for (const bool canContinue : { true, false })
@@ -112,8 +111,8 @@ TEST(Verification, RepairsSurfaceOfLevel)
         Pierce(evolution.Current->State);
       }
     };
-    evolution.StartEnclosing(volume.Image, 0);
-    EXPECT_EQ(evolution.Run(), canContinue ? StopReason::IterationLimit : StopReason::Cancelled);
+    EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0),
+      canContinue ? StopReason::IterationLimit : StopReason::Cancelled);
     EXPECT_GT(evolution.Verified().Found, 0);
     EXPECT_EQ(evolution.Verified().Left, 0);
     EXPECT_TRUE(Has(evolution.Verified().Describe(3), "level 3 intersected itself at "));
@@ -154,8 +153,7 @@ TEST(Verification, ReturnsValidSurfacesOfNoise)
       evolution.Task.Observe = [](int, const std::function<SurfaceResult()>& take)
       { ExpectValidMesh(take()); };
       evolution.Task.Grading.ThinParts = seed % 2 == 1;
-      evolution.StartEnclosing(volume.Image, 0);
-      evolution.Run();
+      evolution.RunEnclosing(volume.Image, 0);
       if (!evolution.IsStopped() && evolution.Divide(fine, -1))
       {
         evolution.Run();
@@ -180,8 +178,7 @@ TEST(Verification, OmitsIntersectingSnapshots)
     }
     points.push_back(take().Points.size());
   };
-  evolution.StartEnclosing(volume.Image, 0);
-  evolution.Run();
+  evolution.RunEnclosing(volume.Image, 0);
   ASSERT_EQ(points.size(), 4u);
   EXPECT_GT(*std::min_element(points.begin(), points.end() - 1), 0u);
   EXPECT_EQ(points.back(), 0u) << "omitted";
@@ -207,8 +204,7 @@ TEST(Verification, ReportsUnrepairableSurface)
       }
     }
   };
-  evolution.StartEnclosing(volume.Image, 0);
-  EXPECT_EQ(evolution.Run(), StopReason::Cancelled);
+  EXPECT_EQ(evolution.RunEnclosing(volume.Image, 0), StopReason::Cancelled);
   EXPECT_GT(evolution.Verified().Found, 0);
   EXPECT_EQ(evolution.Verified().Left, evolution.Verified().Found);
   EXPECT_TRUE(Has(evolution.Verified().Describe(0), "could not be mended"));

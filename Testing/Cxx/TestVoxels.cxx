@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
 #include "Core/Image/ThickPart.h"
+#include "Core/Image/VoxelBox.h"
 #include "Core/Image/VoxelNumbers.h"
 #include "Core/Image/VoxelValues.h"
 #include "TestPrelude.h"
@@ -100,6 +101,23 @@ TYPED_TEST(VoxelValuesOfType, EqualConvertedVoxels)
         << "base " << base << " voxel " << +voxels[i];
       ASSERT_EQ(Bits(copied[i - 1]), expected) << "base " << base << " voxel " << +voxels[i];
     }
+  }
+}
+
+TEST(VoxelBox, WithoutCoversTheRestOnce)
+{
+  const VoxelBox box = VoxelBox::Of({ 4, 5, 6 });
+  for (const VoxelBox& other : { VoxelBox{ { 1, 2, 3 }, { 3, 4, 5 } },
+         VoxelBox{ { 2, -1, 3 }, { 9, 9, 9 } }, VoxelBox{ { 4, 0, 0 }, { 5, 5, 6 } } })
+  {
+    std::vector<int> covered(box.Count());
+    std::vector<VoxelBox> parts = box.Without(other);
+    parts.push_back(box.CommonWith(other));
+    for (const VoxelBox& part : parts)
+    {
+      part.ForVoxels([&](int i, int j, int k) { ++covered[box.NumberOf(i, j, k)]; });
+    }
+    EXPECT_EQ(covered, std::vector<int>(box.Count(), 1));
   }
 }
 

@@ -202,9 +202,6 @@ class LabelsTest(ReferenceTest):
         self.compare("Arrays of the interfaces", {**arrays_of(interfaces.GetPointData()),
                                                   **arrays_of(interfaces.GetCellData())})
         self.compare("Field data of the interfaces", arrays_of(interfaces.GetFieldData()))
-        for block in blocks_of(surfaces.GetOutput()):
-            self.assertEqual({**self.tables["Point arrays of a surface"], "GlobalIds": "idtype"},
-                             arrays_of(block.GetPointData()))
 
     def test_table(self):
         table = volumic.vtkLabelTable()

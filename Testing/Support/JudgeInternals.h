@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #ifndef volumicJudgeInternals_h
 #define volumicJudgeInternals_h
 

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "SurfaceJudge.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "SurfaceJudge.h"
 
 #include "JudgeInternals.h"
@@ -14,7 +13,6 @@ namespace volumic::support
 std::vector<std::pair<int, int>> UniqueEdges(const TriangleSurface& surface)
 {
   std::vector<std::pair<int, int>> edges;
-  edges.reserve(3 * surface.Triangles.size());
   for (const auto& t : surface.Triangles)
   {
     for (int c = 0; c < 3; ++c)

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 /**
  * Judge of surfaces. It shares no code with the tested module. Complexity is at most O(n log n).
  *
@@ -123,6 +122,13 @@ struct SurfaceVerdict
   IntersectionVerdict Intersections;
   LengthVerdict Lengths;
   ShapeVerdict Shapes;
+
+  /** Whether it is closed, manifold and outward, and all its points and triangles are of use. */
+  bool IsSound() const
+  {
+    return this->Topology.Outward && this->Topology.UnusedPoints == 0 &&
+      this->Intersections.Pairs == 0 && this->Intersections.FlatTriangles == 0;
+  }
 };
 
 SurfaceVerdict JudgeSurface(const TriangleSurface& surface, double delta);

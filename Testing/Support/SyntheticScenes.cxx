@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 #include "SyntheticScenes.h"
 
 #include "ForVoxels.h"

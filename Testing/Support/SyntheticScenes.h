@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: Copyright (c) Volumic contributors
 // SPDX-License-Identifier: BSD-3-Clause
-
 /**
  * Synthetic volumes of 64^3 voxels with known topology, used as acceptance scenes.
  * SupportVtkConversions.h converts them to vtkImageData. Lengths are in voxels, unless specified
