@@ -151,6 +151,22 @@ inline IndexedSurface Cuboid(const Point& low, const Point& high)
   return box;
 }
 
+/** Double cone along z. Vertices 0 and 1 are the tips, the others follow in order. */
+inline IndexedSurface DoubleCone(int sides)
+{
+  IndexedSurface cone;
+  cone.Points = { { 0, 0, 5 }, { 0, 0, -5 } };
+  for (int i = 0; i < sides; ++i)
+  {
+    const double a = 2 * 3.14159265358979 * i / sides;
+    const int next = 2 + (i + 1) % sides;
+    cone.Points.push_back({ 5 * std::cos(a), 5 * std::sin(a), 0 });
+    cone.Triangles.push_back({ 0, 2 + i, next });
+    cone.Triangles.push_back({ 1, next, 2 + i });
+  }
+  return cone;
+}
+
 /** Torus around the z axis with n x m vertices. */
 inline IndexedSurface MakeTorus(const Point& centre, double major, double minor, int n, int m)
 {

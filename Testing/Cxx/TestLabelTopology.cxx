@@ -84,12 +84,6 @@ void ExpectContactsOfVoxels(const VoxelScene& scene, const InterfaceMesh& mesh)
   }
 }
 
-/** Return the volume error bound: 1 % for at least 60 voxels, 5 % for at least 8, else 25 %. */
-double VolumeErrorBound(double voxels)
-{
-  return voxels >= 60. ? 0.01 : voxels >= 8. ? 0.05 : 0.25;
-}
-
 void ExpectVolumes(vtkLabelsToSurfaces* filter, const LabelScene& scene)
 {
   for (unsigned int block = 0; block < filter->GetOutput()->GetNumberOfBlocks(); ++block)
@@ -97,8 +91,8 @@ void ExpectVolumes(vtkLabelsToSurfaces* filter, const LabelScene& scene)
     vtkPolyData* surface = BlockOf(filter, block);
     SCOPED_TRACE(FieldOf(surface, "Label"));
     const double voxels = FieldOf(surface, "LabelVoxels");
-    EXPECT_NEAR(FieldOf(surface, "VolumeError"), 0., scene.Excess * VolumeErrorBound(voxels))
-      << voxels;
+    const double bound = voxels >= 60. ? 0.01 : voxels >= 8. ? 0.05 : 0.25;
+    EXPECT_NEAR(FieldOf(surface, "VolumeError"), 0., scene.Excess * bound) << voxels;
     EXPECT_LE(FieldOf(surface, "WrongParts"), scene.MisclassifiedParts);
   }
 }

@@ -53,6 +53,26 @@ TEST(Remesher, SplitAvoidsNeedles)
   }
 }
 
+TEST(Remesher, SplitsNoShortEdgeToMakeRoom)
+{
+  // A long edge of a half circle. The rings of both opposite vertices are full, one is near an end.
+  IndexedSurface cone = DoubleCone(Ring::Capacity);
+  for (int i = 0; i < Ring::Capacity; ++i)
+  {
+    const double a = 3.14159265358979 * (1 + i / (Ring::Capacity - 1.));
+    cone.Points[2 + i] = { 1.3 * std::cos(a), 1.3 * std::sin(a), 0 };
+  }
+  cone.Points[0] = { -0.95, -0.01, 0.2 };
+  cone.Points[1] = { 0, -0.5, -1 };
+  LiveSurface bench(cone);
+  const LargeVector<float> sizes(99, 1.f);
+  bench.Sizing = bench.Sizing.Graded(sizes, 1, 0.2f);
+  std::vector<int> all = bench.All();
+  Remesher(bench, nullptr, true).Split(all);
+  EXPECT_FALSE(bench.Mesh.AreNeighbours(2, 1 + Ring::Capacity));
+  EXPECT_TRUE(bench.Mesh.AreNeighbours(0, 2)) << "the short edge";
+}
+
 TEST(Remesher, RemovesVertexOfValenceThree)
 {
   LiveSurface bench(FineSphere());

@@ -23,13 +23,6 @@ std::uint32_t Bits(float value)
   return bits;
 }
 
-/** Reference conversion of a voxel. */
-template <typename T>
-float Converted(T voxel, double base)
-{
-  return static_cast<float>(static_cast<double>(voxel) - base);
-}
-
 /** Return random voxels with the extreme values of the type, limited to +-1e9. */
 template <typename T>
 std::vector<T> AnyVoxels(std::size_t count)
@@ -96,7 +89,8 @@ TYPED_TEST(VoxelValuesOfType, EqualConvertedVoxels)
     values.Copy(1, static_cast<std::ptrdiff_t>(copied.size()), copied.data());
     for (std::size_t i = 1; i < voxels.size(); ++i)
     {
-      const std::uint32_t expected = Bits(Converted(voxels[i], base));
+      const std::uint32_t expected =
+        Bits(static_cast<float>(static_cast<double>(voxels[i]) - base));
       ASSERT_EQ(Bits(values[static_cast<std::ptrdiff_t>(i)]), expected)
         << "base " << base << " voxel " << +voxels[i];
       ASSERT_EQ(Bits(copied[i - 1]), expected) << "base " << base << " voxel " << +voxels[i];

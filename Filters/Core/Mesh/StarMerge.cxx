@@ -150,8 +150,6 @@ void StarMerge::ChooseBridgeEdges()
 
 void StarMerge::MakeTriangles()
 {
-  this->Triangles.clear();
-  this->SquaredLongest = 0;
   for (std::size_t i = 0; i < this->BridgeEdges.size(); ++i)
   {
     const BridgeEdge& here = this->BridgeEdges[i];

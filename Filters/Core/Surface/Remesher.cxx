@@ -12,11 +12,10 @@ namespace volumic
 {
 namespace
 {
-/** Maximum recursion depth of SplitEdge. */
-constexpr int DeepestSplit = 4;
-/** Least distances in delta of vertices opposite a split edge from its midpoint and its ends. */
-constexpr float UniformNeedle[] = { 0.02f, 0.f };
-constexpr float GradedNeedle[] = { 0.05f, 0.03f };
+constexpr int DeepestSplit = 4; ///< recursion of SplitEdge()
+/** Least distances in delta of opposite vertices from the midpoint and the ends, least length. */
+constexpr float UniformNeedle[] = { 0.02f, 0.f, 0.f };
+constexpr float GradedNeedle[] = { 0.05f, 0.03f, 0.5f };
 /** Number of rollbacks after which a vertex is stuck. */
 constexpr int StuckRollbacks = 6;
 /** Longest edge of a stuck vertex that is collapsed, in shortest legal edges. */
@@ -40,14 +39,15 @@ bool Remesher::MakesNeedles(int u, int v, const EdgeFlip& across) const
   const float* least = s.Sizing.IsGraded() ? GradedNeedle : UniformNeedle;
   const float delta = s.Sizing.ShortestEdge(u, v);
   const Vector ends[] = { s.Mesh.Position[u], s.Mesh.Position[v] };
-  const auto isNear = [&](int w)
+  const auto isWithin = [&](const Vector& p, const Vector& q, float distance)
+  { return SquaredDistance(p, q) < distance * delta * (distance * delta); };
+  const auto isNear = [&](const Vector& p)
   {
-    const auto isWithin = [&](const Vector& from, float distance)
-    { return SquaredDistance(s.Mesh.Position[w], from) < distance * delta * (distance * delta); };
-    return isWithin((ends[0] + ends[1]) * 0.5f, least[0]) || isWithin(ends[0], least[1]) ||
-      isWithin(ends[1], least[1]);
+    return isWithin(p, (ends[0] + ends[1]) * 0.5f, least[0]) || isWithin(p, ends[0], least[1]) ||
+      isWithin(p, ends[1], least[1]);
   };
-  return isNear(across.A) || isNear(across.B);
+  return isWithin(ends[0], ends[1], least[2]) || isNear(s.Mesh.Position[across.A]) ||
+    isNear(s.Mesh.Position[across.B]);
 }
 
 bool Remesher::SplitEdge(int u, int v, std::vector<int>& added, int depth)

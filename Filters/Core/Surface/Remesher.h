@@ -55,7 +55,7 @@ public:
 
 private:
   bool SplitEdge(int u, int v, std::vector<int>& added, int depth);
-  /** Return whether a split makes needles: an opposite vertex is near the midpoint or an end. */
+  /** Return whether a split makes needles: an opposite vertex is near, or the edge is short. */
   bool MakesNeedles(int u, int v, const EdgeFlip& across) const;
   void SplitAt(int v, std::vector<int>& added);
   bool AreApproaching(int u, int v) const;
