@@ -201,7 +201,7 @@ class AbortWindowTest(window.WindowTestCase):
         self.assertTrue(100 < points < self.whole[1])
         self.assertEqual(self.values("View: "), (2, points))
         self.assertIsNone(abort_button(self.picture("after")), "disabled again")
-        near = tuple(slice(c - 20, c + 20) for c in cross[::-1])
+        near = tuple(slice(c - 12, c + 12) for c in cross[::-1])
         cursor = self.session.pixels()[near]
         for position in apply, cross:
             self.hand.move(*position)
