@@ -42,16 +42,14 @@
  * - `Motionless` (unsigned char): 1 for converged vertices; with vtkAbstractArray::GUI_HIDE()
  * - `Contact` (unsigned char): 1 where walls or gaps are thinner than the triangles can represent
  * - `EdgeSize` (float, world units): requested edge length, with Tolerance or ThinParts
- * - `Thickness` (float, world units): thickness of the object or of the gap outside, whichever is
- *   less, with ThinParts
+ * - `Thickness` (float, world units): of the object or of the gap outside, the less, with ThinParts
  *
  * @par Cell arrays:
  * - `Component` (int): index of the component, 0 for the largest area
  * - `ComponentArea`, `ComponentVolume` (float), `ComponentGenus` (int): of that component
  *
  * @par Field data:
- * - `Level`, `StartLevel`, `Iterations` (int): level, level at which the run started, iterations at
- *   this level
+ * - `Level`, `StartLevel`, `Iterations` (int): level, level of the start, iterations at this level
  * - `Delta`, `Unit` (double, world units): delta and U of the level, see Algorithm
  * - `NumberOfComponents`, `EulerCharacteristic`, `Genus` (int), `Area`, `Volume` (double)
  * - `StopReason` (string): `converged`, `limit cycle` (also finished), `iteration limit`,
@@ -65,8 +63,7 @@
  * - `ComponentArea`, `ComponentVolume` (double), `ComponentGenus` (int): an entry per component
  * - `ComponentOwner` (int): index of the component, for a cavity of the component around it or -1
  * - `ComponentCentroid` (double, 3), `ComponentInertia` (double, 6): of the enclosed solid
- * - `Iteration` (int): in snapshots instead of `StopReason`, the last row of the history at that
- *   time
+ * - `Iteration` (int): in snapshots instead of `StopReason`, last row of the history then
  *
  * @par Columns of the history:
  * `Iteration` (from 1, over all levels), `Level`, `Vertices`, `KineticEnergy`, `MeanEdgeLength`,
@@ -118,8 +115,7 @@
  * J.-O. Lachaud and A. Montanvert, "Volumic Segmentation using Hierarchical Representation and
  * Triangulated Surface", ECCV 1996. Documentation/differences.md lists the differences.
  *
- * @sa
- * vtkImagePyramid vtkVolumeToSurface vtkFlyingEdges3D
+ * @sa vtkImagePyramid vtkVolumeToSurface vtkFlyingEdges3D
  */
 #ifndef vtkDeformableSurface_h
 #define vtkDeformableSurface_h

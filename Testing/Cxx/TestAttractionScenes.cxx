@@ -66,7 +66,7 @@ SurfaceVerdict JudgeOutput(vtkDeformableSurface* filter)
   vtkPolyData* surface = filter->GetOutput();
   const SurfaceVerdict verdict =
     JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"));
-  EXPECT_TRUE(verdict.IsSound());
+  EXPECT_TRUE(verdict.IsSound()) << Describe(verdict);
   EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);
   EXPECT_EQ(verdict.Lengths.NearPairs, 0u);
   EXPECT_EQ(StopReason(surface), "converged");

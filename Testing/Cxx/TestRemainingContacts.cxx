@@ -102,7 +102,7 @@ TEST(FinerThanImage, DividesOnceMoreAndKeepsTheConstraints)
     static_cast<double>(surface->GetNumberOfPoints()) / level0->GetNumberOfPoints(), 3.0, 0.3);
   const SurfaceVerdict verdict =
     JudgeSurface(ToTriangleSurface(surface), FieldOf(surface, "Delta"));
-  EXPECT_TRUE(verdict.IsSound());
+  EXPECT_TRUE(verdict.IsSound()) << Describe(verdict);
   EXPECT_EQ(verdict.Topology.Components.size(), 1u);
   EXPECT_EQ(verdict.Topology.Genus, 1);
   EXPECT_EQ(verdict.Lengths.EdgesTooShort + verdict.Lengths.EdgesTooLong, 0u);

@@ -123,7 +123,7 @@ struct SurfaceVerdict
   LengthVerdict Lengths;
   ShapeVerdict Shapes;
 
-  /** Whether it is closed, manifold and outward, and all its points and triangles are of use. */
+  /** Closed, manifold, outward, without intersections, unused points and flat triangles. */
   bool IsSound() const
   {
     return this->Topology.Outward && this->Topology.UnusedPoints == 0 &&
